@@ -190,9 +190,9 @@ class Runner:
 def race(runners: Sequence[Runner], settings: Settings, fine: Simulation) -> list[FinalFit]:
     """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
 
-    One that can gain too little beside what others have gained does not start, and one that promises nothing after a
-    point rests. Of several starts of one candidate, one that is higher after a point, and promises less, is given up
-    at once; later the better one goes on.
+    One that can gain too little beside what others have gained does not start. Of several starts of one candidate, one
+    that is higher after a point, and promises less, is given up at once; later the better one goes on. After a point
+    the better half goes on, as far as it promises anything (Jamieson and Talwalkar 2016, AISTATS).
 
     Args:
         runners: the most promising first.
@@ -204,9 +204,10 @@ def race(runners: Sequence[Runner], settings: Settings, fine: Simulation) -> lis
         if fit is not None and fit.good:
             running.append((advance(fit, 1), runner.before))
             gained = max(gained, runner.before - running[-1][0].point.cost)
-    running = _not_worse(running)
-    resting = [(fit, before) for fit, before in running if fit.expected >= before]
-    running = [(fit, before) for fit, before in running if fit.expected < before]
+    running = sorted(_not_worse(running), key=_promise)
+    half = max((len(running) + 1) // 2, settings.finalists)
+    resting = [one for k, one in enumerate(running) if k >= half or _promise(one) >= 0]
+    running = running[: len(running) - len(resting)]
     points, least = settings.heat - 1, 0.0
     while running:
         running = _best_starts([(advance(fit, points), before) for fit, before in running])
@@ -217,12 +218,17 @@ def race(runners: Sequence[Runner], settings: Settings, fine: Simulation) -> lis
             break
         resting += [one for one in running if not any(one is other for other in going)]
         running = going
-    ranked = sorted(_best_starts([*running, *resting]), key=lambda one: one[0].expected - one[1])
+    ranked = sorted(_best_starts([*running, *resting]), key=_promise)
     ended = [
         (converged(fit, fine) if k < settings.finalists and before - fit.expected >= max(least, 0.0) else fit, before)
         for k, (fit, before) in enumerate(ranked)
     ]
     return [fit for fit, before in sorted(ended, key=lambda one: one[0].point.cost - one[1])]
+
+
+def _promise(one: tuple[FinalFit, float]) -> float:
+    """Cost that a refit will end at over that of the present model, nats."""
+    return one[0].expected - one[1]
 
 
 def _not_worse(running: Sequence[tuple[FinalFit, float]]) -> list[tuple[FinalFit, float]]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cache, partial
+from functools import partial
 
 import numpy as np
 
@@ -17,10 +17,11 @@ from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, Runner, begin, begin_anywhere, converged, cost_at, race
-from pysim.diagnosis.screen import Screened, best_of_each, own_values, screen, screened
+from pysim.diagnosis.refit import FinalFit, begin, begin_anywhere, converged, race
+from pysim.diagnosis.screen import Screened, best_of_each, screen, screened
 from pysim.diagnosis.sensors import with_sensor_errors
 from pysim.diagnosis.settings import Settings
+from pysim.diagnosis.starts import Starts
 from pysim.identify.greybox import Simulation
 from pysim.identify.greybox.beginning import settled_initial_states
 from pysim.types import BadInput, Effect
@@ -294,37 +295,20 @@ class Search:
         self.say.doing(f"trying effects beside {' + '.join(present.names) or 'the base model'}")
         beside = partial(self._beside, present)
         near = self.floors.within(present, self.settings.near)
-        simulation = self.fine if near else self.rough
+        starts = Starts(beside, self.fine if near else self.rough, near, self.settings)
         tried = best_of_each(screen(self.models, beside, self.rough))
-
-        @cache
-        def here(transient: bool, simulation: Simulation) -> FinalFit:
-            """The present model as a rival is compared and simulated."""
-            fit = beside(transient)
-            return fit if fit.simulation == simulation else begin(fit.candidate, fit.values, simulation, fit)
-
-        def runner(candidate: Candidate, values: Values, most: float) -> Runner:
-            start = partial(begin, candidate, values, simulation, beside(candidate.transient))
-            return Runner(start, here(candidate.transient, simulation).point.cost, most)
-
-        sensors = with_sensor_errors(here(present.candidate.transient, simulation), self.models)
+        sensors = with_sensor_errors(starts.here(present.candidate.transient), self.models)
         self.tried = max(self.tried, len(tried) + len(sensors))
-        runners = [
-            *self._effects_to_refit(present, tried, near, runner),
-            *self._sensors_to_refit(here(present.candidate.transient, simulation), sensors, near),
-        ]
-        if not near:  # the present parameters may be those of a wrong optimum
-            runners += self._from_own_values(tried, simulation, beside, runner)
+        runners = starts.runners(tried, sensors, self.tried)
+        raced = partial(race, runners, self.settings, self.fine)
         part = f"beside {' + '.join(present.candidate.labels) or 'the base model'}"
-        candidates = [one.candidate for one in (*tried, *sensors)]
-        fits = self._checkpoint.once(
-            part, partial(race, runners, self.settings, self.fine), candidates, self._simulations
-        )
+        candidates = [one.candidate for one in tried] + [fit.candidate for fit in sensors]
+        fits = self._checkpoint.once(part, raced, candidates, self._simulations)
         have, compared = set(present.candidate.labels), list[Compared]()
         for fit in fits:
             added = next(label for label in fit.candidate.labels if label not in have)
             if fit.believable(added, self.settings.believable):
-                compared.append(Compared(fit, added, self.test(here(fit.candidate.transient, fit.simulation), fit)))
+                compared.append(Compared(fit, added, self.test(starts.like(fit), fit)))
         refitted = {one.added for one in compared}
         aside = [one for one in tried if one.effect.name not in refitted]
         return Table(present.candidate.labels, self.floors.potential(present), self._ordered(compared), aside, tried)
@@ -340,46 +324,6 @@ class Search:
             find = partial(self._refitted, other, fit.values, fit)
             self._fits[key] = self._once(part, find, other)
         return self._fits[key]
-
-    def _effects_to_refit(
-        self, present: FinalFit, tried: Sequence[Screened], near: bool, runner: Callable[..., Runner]
-    ) -> list[Runner]:
-        """Effects, the most promising first: near the floor first-order gains are good enough to put some aside."""
-        if not near:
-            return [runner(one.candidate, one.values, math.inf) for one in tried]
-        left, found = rivals.of(present), list[Runner]()
-        for one in tried:
-            most = self.settings.first_order_error * one.gain
-            if self._may_pass(present, most, len(one.effect.parameters), rivals.effective(left, one.change)):
-                found.append(runner(one.candidate, one.values, most))
-        return found
-
-    def _sensors_to_refit(self, present: FinalFit, starts: Sequence[FinalFit], near: bool) -> list[Runner]:
-        """The same of sensors' errors."""
-        found: list[Runner] = []
-        for fit in starts:
-            most = self.settings.first_order_error * (present.point.cost - fit.expected) if near else math.inf
-            if self._may_pass(present, most, 1, 1.0):
-                found.append(Runner(lambda fit=fit: fit, present.point.cost, most))
-        return found
-
-    def _may_pass(self, present: FinalFit, most: float, df: int, inflated: float) -> bool:
-        """Whether a gain of so many nats would be significant."""
-        p = rivals.p_value(most, df, rivals.samples(present), present.candidate.size + df, inflated)
-        return p * self.tried < self.settings.false_alarm
-
-    def _from_own_values(
-        self,
-        tried: Sequence[Screened],
-        simulation: Simulation,
-        beside: Callable[[bool], FinalFit],
-        runner: Callable[..., Runner],
-    ) -> list[Runner]:
-        """Effects from the model's own parameters: those that are closest to the data there, as many as finalists."""
-        starts = [(one.candidate, own_values(one)) for one in tried]
-        costs = [cost_at(candidate, own, simulation, beside(candidate.transient)) for candidate, own in starts]
-        order = np.argsort(costs, kind="stable")[: self.settings.finalists]
-        return [runner(*starts[k], math.inf) for k in order if math.isfinite(costs[k])]
 
     def test(self, smaller: FinalFit, larger: FinalFit, choices: int | None = None) -> GainTest:
         """The larger model against the smaller by what was fitted alone.
@@ -503,7 +447,15 @@ class Search:
         return self._keep(self._once(f"without {label} of {' + '.join(labels)}", find, candidate))
 
     def _refitted(self, candidate: Candidate, values: Values, present: FinalFit) -> FinalFit:
-        return converged(begin(candidate, values, self.rough, present), self.fine)
+        """Refitted from where another model stands, or as it is known where that promises to end hardly lower."""
+        rough = converged(begin(candidate, values, self.rough, present))
+        known = self._fits.get((frozenset(candidate.labels), candidate.transient))
+        fit = begin(candidate, rough.values, self.fine, rough) if rough.good else rough
+        if known is not None:
+            hardly = self.settings.small * max(known.point.cost - present.point.cost, 0.0)
+            if not fit.good or fit.expected > known.point.cost - hardly:
+                return known
+        return converged(fit)
 
     def _keep(self, fit: FinalFit) -> FinalFit:
         key = _key(fit)

@@ -1,0 +1,90 @@
+"""Which rivals are refitted beside a model, and from where."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+
+import numpy as np
+
+from pysim.diagnosis import rivals
+from pysim.diagnosis.candidate import Candidate, Values
+from pysim.diagnosis.refit import FinalFit, Runner, begin, cost_at
+from pysim.diagnosis.screen import Screened, own_values
+from pysim.diagnosis.settings import Settings
+from pysim.identify.greybox import Simulation
+
+
+@dataclass(frozen=True)
+class Starts:
+    """Starts beside one model.
+
+    Args:
+        beside: the model, compared by orbits (False) or by transients (True).
+        simulation: of the refits.
+        near: whether it leaves so little over the floor that first-order gains tell what a refit could gain.
+        settings: of the search.
+    """
+
+    beside: Callable[[bool], FinalFit]
+    simulation: Simulation
+    near: bool
+    settings: Settings
+    _here: dict[bool, FinalFit] = field(default_factory=dict, init=False, repr=False)
+
+    def here(self, transient: bool) -> FinalFit:
+        """The model as rivals are compared with it and simulated."""
+        if transient not in self._here:
+            fit = self.beside(transient)
+            if fit.simulation != self.simulation:
+                fit = begin(fit.candidate, fit.values, self.simulation, fit)
+            self._here[transient] = fit
+        return self._here[transient]
+
+    def like(self, rival: FinalFit) -> FinalFit:
+        """The model compared and simulated as a rival is, which may have ended by finer simulations."""
+        fit = self.beside(rival.candidate.transient)
+        return fit if fit.simulation == rival.simulation else self.here(rival.candidate.transient)
+
+    def runners(self, screened: Sequence[Screened], sensors: Sequence[FinalFit], tried: int) -> list[Runner]:
+        """What is refitted, the most promising first; near the floor only what may pass the test of its gain.
+
+        Args:
+            screened: effects at their best size, the best first.
+            sensors: the model with a sensor's error more, each.
+            tried: all that is looked at, for what chance could do.
+        """
+        found = [self._runner(one.candidate, one.values, self._most(one.gain)) for one in screened]
+        found += [self._of_sensor(fit) for fit in sensors]
+        if not self.near:  # the model's parameters may be those of a wrong optimum
+            starts = [(one.candidate, own_values(one)) for one in screened]
+            costs = [cost_at(c, values, self.simulation, self.beside(c.transient)) for c, values in starts]
+            order = np.argsort(costs, kind="stable")[: self.settings.finalists].tolist()
+            nearest = [starts[k] for k in order if math.isfinite(costs[k])]
+            return found + [self._runner(candidate, values, math.inf) for candidate, values in nearest]
+        lefts = [rivals.of(self.beside(one.candidate.transient)) for one in screened]
+        sizes = [
+            (len(one.effect.parameters), rivals.effective(left, one.change))
+            for one, left in zip(screened, lefts, strict=True)
+        ]
+        sizes += [(1, 1.0)] * len(sensors)
+        samples, size = rivals.samples(self.beside(False)), self.beside(False).candidate.size
+        chances = [
+            tried * rivals.p_value(one.most, df, samples, size + df, inflated)
+            for one, (df, inflated) in zip(found, sizes, strict=True)
+        ]
+        return [one for one, chance in zip(found, chances, strict=True) if chance < self.settings.false_alarm]
+
+    def _most(self, gain: float) -> float:
+        """Nats that a refit can gain at most."""
+        return self.settings.first_order_error * gain if self.near else math.inf
+
+    def _runner(self, candidate: Candidate, values: Values, most: float) -> Runner:
+        start = partial(begin, candidate, values, self.simulation, self.beside(candidate.transient))
+        return Runner(start, self.here(candidate.transient).point.cost, most)
+
+    def _of_sensor(self, fit: FinalFit) -> Runner:
+        before = self.here(fit.candidate.transient).point.cost
+        return Runner(lambda: fit, before, self._most(before - fit.expected))
