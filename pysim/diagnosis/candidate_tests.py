@@ -14,7 +14,7 @@ from pysim.diagnosis.settings import TestSettings
 from pysim.excitation import Excitation, LeadIn, PiersonMoskowitz, Step, SteppedSineCommand, StochasticWave
 from pysim.identify.greybox import SinePlan
 from pysim.identify.greybox.harmonics import harmonic_count, regressors
-from pysim.types import BadInput, Dataset, Experiment, MeasuredSignal, Model, Record
+from pysim.types import BadInput, Dataset, Experiment, MeasuredSignal, Model, PlannedTest, Record
 from pysim.types.record_kind import STEPPED_SINE, STOCHASTIC
 
 Array = NDArray[np.float64]
@@ -108,15 +108,11 @@ class CandidateTest:
         rows += [f"peak_period = {1 / self.frequency:.9g}", f"length = {self.length:.6g}", f"seed = {self.seed}"]
         return [*rows, f"lead.hold = {self.hold:.6g}"]
 
-    def __str__(self) -> str:
-        unit = "" if self.input.unit == "1" else f" {self.input.unit}"
-        seconds = f"for {self.command.end - self.command.onset:.3g} s"
-        if self.periods:
-            sine = f"a sine of {self.frequency:.3g} Hz and {self.amplitude:.3g}{unit}"
-            return f"{sine} around {self.offset:.3g}{unit} {seconds}"
-        around = f" around {self.offset:.3g}{unit}" if self.offset else ""
-        wave = f"a wave of {self.amplitude:.3g}{unit} significant height{around}"
-        return f"{wave}, its peak at {self.frequency:.3g} Hz, {seconds}"
+    @property
+    def planned(self) -> PlannedTest:
+        """As the answer has it."""
+        sizes = self.frequency, self.amplitude, self.offset
+        return PlannedTest(bool(self.periods), *sizes, self.input.unit, self.command.end - self.command.onset)
 
 
 def candidate_tests(

@@ -241,10 +241,14 @@ def cheapest(
 
 
 def _described(session: Session, fits: Sequence[FinalFit], tests: Tests, signals: Signals, gain: float) -> NextTest:
-    """In a sentence, and as a test plan."""
+    """What to run and to log, and that as a test plan."""
     one, other = (" + ".join(fit.names) or "none" for fit in fits)
     have = {signal.name for signal in session.dataset.signals}
-    new = [f"{s.name}, {s.noise:.2g}{'' if s.unit == '1' else ' ' + s.unit}" for s in signals if s.name not in have]
-    also = f" (new: {new[0]} of noise assumed)" if new else ""
-    about = f"Run {'; '.join(map(str, tests))}. Log {', '.join(signal.name for signal in signals)}{also}."
-    return NextTest((one, other), gain, about, plan_text(tests, signals, session.dataset.system, (one, other)))
+    return NextTest(
+        separates=(one, other),
+        gain=gain,
+        tests=tuple(test.planned for test in tests),
+        log=tuple(signal.name for signal in signals),
+        assumed={s.name: (s.noise, s.unit) for s in signals if s.name not in have and s.noise is not None},
+        plan=plan_text(tests, signals, session.dataset.system, (one, other)),
+    )

@@ -12,6 +12,7 @@ from pysim.types.answer import (
     Left,
     NextTest,
     NoiseFloor,
+    PlannedTest,
     Rival,
     Verdict,
 )
@@ -89,6 +90,7 @@ __all__ = [
     "Note",
     "NoteCode",
     "Outcome",
+    "PlannedTest",
     "Port",
     "ProgressEvent",
     "Record",

@@ -157,20 +157,48 @@ class Failure:
 
 
 @dataclass(frozen=True)
+class PlannedTest:
+    """A test that is to be run on the bench.
+
+    Args:
+        sine: whether the command is a steady sine; else it is a stochastic wave.
+        frequency: Hz, of the sine or of the wave's peak.
+        amplitude: of the sine, or significant height of the wave, in the command's unit.
+        offset: that it is around.
+        unit: of the command.
+        seconds: on the bench, lead included.
+    """
+
+    sine: bool
+    frequency: float
+    amplitude: float
+    offset: float
+    unit: str
+    seconds: float
+
+
+@dataclass(frozen=True)
 class NextTest:
     """The experiment that would separate two answers best.
 
     Args:
         separates: the two.
         gain: difference of their sums of squares over noise that is expected once it is run and both are refitted.
-        about: what to run and what to log, in a sentence.
+        tests: what to run.
+        log: signals to log.
+        assumed: signal that was never logged -> standard deviation and unit of the noise that it is taken to have.
         plan: text of a test plan that `pysim bench` can run.
     """
 
     separates: tuple[str, str]
     gain: float
-    about: str
+    tests: tuple[PlannedTest, ...]
+    log: tuple[str, ...]
+    assumed: Mapping[str, tuple[float, str]]
     plan: str
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "assumed", FrozenMapping(self.assumed))
 
 
 @dataclass(frozen=True)

@@ -157,4 +157,11 @@ def _learned(law: LearnedLaw) -> Json:
 def _next_test(test: NextTest | None) -> Json | None:
     if test is None:
         return None
-    return {"separates": test.separates, "gain": test.gain, "about": test.about, "plan": test.plan}
+    return {
+        "separates": test.separates,
+        "gain": test.gain,
+        "tests": [vars(one) for one in test.tests],
+        "log": test.log,
+        "assumed": {name: {"noise": noise, "unit": unit} for name, (noise, unit) in test.assumed.items()},
+        "plan": test.plan,
+    }

@@ -8,6 +8,7 @@ import time
 import numpy as np
 
 from pysim.diagnosis import diagnose
+from pysim.present.diagnosis.words import next_test_sentence
 from pysim.types.answer import Diagnosis
 from validation.batch import Line, serve
 from validation.ties.plant import KINDS, drawn
@@ -34,7 +35,7 @@ def answer(name: str) -> Line:
     if line["tie"] and found.next_test is not None:
         after = diagnose(plant.session(plant.tested(data, found.next_test.plan, number)))
         right = _named(after)[:1] == [plant.effect]
-        line |= {"test": found.next_test.about, "after": _named(after), "tied": _tie(after)}
+        line |= {"test": next_test_sentence(found.next_test), "after": _named(after), "tied": _tie(after)}
         line |= {"right": right, "settled": right and not any(plant.effect in group for group in after.ties)}
     return {**line, "cpu": round(time.process_time() - begun, 2)}
 

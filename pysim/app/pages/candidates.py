@@ -62,9 +62,8 @@ def _verdict(answer: Answer) -> None:
         text("p", str(answer.data["reason"]), "statement")
         for group in answer.data["confusable"]:
             text("p", f"These data cannot tell {' and '.join(group)} apart.", "note")
-        test = answer.data["next_test"]
-        if test is not None:
-            text("p", f"The test that would: {test['about']}", "note")
+        if "next_test_about" in answer.data:
+            text("p", f"The test that would: {answer.data['next_test_about']}", "note")
 
 
 def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups: list[set[str]]) -> None:

@@ -76,6 +76,8 @@ def data(result: Diagnosed) -> dict[str, object]:
     notes = [{"code": one.code.value, "values": dict(one.values), "text": words(one)} for one in found.notes]
     warnings = {one.step: [words(note) for note in step_warnings(one)] for one in found.history if one.step != PRIOR}
     shown = {"reason": verdict_sentence(found), "notes": notes, "warnings": warnings}
+    if found.next_test is not None:
+        shown["next_test_about"] = next_test_sentence(found.next_test)
     return {**answer_data(found, result.files), **shown}
 
 

@@ -12,7 +12,7 @@ from pysim.io import counted
 from pysim.present.diagnosis.law_words import law_sentence
 from pysim.present.notes import USES, listed
 from pysim.types import Criterion, Diagnosis, ErrorStep, FoundEffect, Left, NextTest, NoteCode, RecordFit, Rival
-from pysim.types.answer import NONE, PRIOR, REFIT, UNKNOWN
+from pysim.types.answer import NONE, PRIOR, REFIT, UNKNOWN, PlannedTest
 
 UNIT = "standard deviations of the noise"
 BEYOND = 1.5  # residual above which a model fails, though wider limits may hold
@@ -133,10 +133,25 @@ def _nowhere(diagnosis: Diagnosis) -> str:
 
 def next_test_sentence(test: NextTest) -> str:
     """What to run and to log, and what that is worth."""
+    assumed = [f"{name}, {noise:.2g}{_unit(unit)}" for name, (noise, unit) in test.assumed.items()]
+    also = f" (new: {'; '.join(assumed)} of noise assumed)" if assumed else ""
     return (
-        f"{test.about} It separates {' from '.join(test.separates)}: expected difference of their sums of squares over "
-        f"noise {test.gain:.3g}."
+        f"Run {'; '.join(map(_planned, test.tests))}. Log {', '.join(test.log)}{also}. It separates "
+        f"{' from '.join(test.separates)}: expected difference of their sums of squares over noise {test.gain:.3g}."
     )
+
+
+def _planned(test: PlannedTest) -> str:
+    unit, seconds = _unit(test.unit), f"for {test.seconds:.3g} s"
+    around = f" around {test.offset:.3g}{unit}" if test.sine or test.offset else ""
+    if test.sine:
+        return f"a sine of {test.frequency:.3g} Hz and {test.amplitude:.3g}{unit}{around} {seconds}"
+    wave = f"a wave of {test.amplitude:.3g}{unit} significant height{around}"
+    return f"{wave}, its peak at {test.frequency:.3g} Hz, {seconds}"
+
+
+def _unit(unit: str) -> str:
+    return "" if unit == "1" else f" {unit}"
 
 
 def limits_sentence(step: ErrorStep) -> str:

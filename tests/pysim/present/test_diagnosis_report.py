@@ -13,7 +13,7 @@ from tests.pysim.cli.ran import undraw
 from tests.pysim.diagnosis_answer import LAW, dataset, found_offset, nothing
 
 EMPTY = replace(LAW, slot="supply", knots=np.zeros(0), coefficients=np.zeros(0), covariance=np.zeros((0, 0)))
-TEST = NextTest(("toy.offset", "toy.twin"), 42.0, "Run a slow ramp.", 'name = "ramp"\n')
+TEST = NextTest(("toy.offset", "toy.twin"), 42.0, (), ("x",), {}, 'name = "ramp"\n')
 
 
 @pytest.fixture(autouse=True)
