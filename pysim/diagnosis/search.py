@@ -254,7 +254,8 @@ class Search:
         return self.floors.within(fit, self.settings.held_out)
 
     def _forward(self, base: FinalFit, most: int, way: int, other: Sequence[Step]) -> list[Step]:
-        """Steps along one way: the first goes to the best rival or to the next best, the others to the best.
+        """Steps along one way: the first goes to the best rival, or to the next best where that is not much worse, the
+        others to the best.
 
         Args:
             other: steps of another way; none are left of one that is behind it from the second step on.
@@ -268,6 +269,8 @@ class Search:
             if len(compared) <= place:
                 break
             best = compared[place]
+            if best.test.gain < self.settings.promising * compared[0].test.gain:
+                break
             sure = best.test.verdict is Verdict.BETTER
             in_vain = 0 if sure else in_vain + 1
             gained = sum(s.test.gain for s in steps[len(steps) - in_vain + 1 :]) if in_vain > 1 else 0.0
