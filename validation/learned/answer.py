@@ -29,6 +29,9 @@ from validation.learned.cases import CASES, NOISE, LearnedCase, measure
 BASE = "HydraulicTestBench.Pump.FreeGreyBox"
 _ALIKE = {"xp": "x", "piston.x": "x", "linkage.s": "x", "xp_t": "v", "piston.v": "v", "spool.u": "s", "u": "s",
           "chamber1.p": "p1", "chamber2.p": "p2"}  # fmt: skip
+# Powers of a mechanism's scale. Angle, spool and pressures stay the same where its lengths are divided by a number and
+# its areas and forces multiplied by it, so that no test of these cases tells that number.
+_OF_SCALE = {"x": -1, "v": -1, "pistonForce": 1}
 _WIDTH = 1.96  # standard deviations on either side, of a band of 95 percent
 _PLACES = 101  # of a curve that are looked at
 
@@ -212,17 +215,25 @@ def _bare(law: LearnedLaw, name: str) -> str:
 
 
 def band(case: LearnedCase, law: LearnedLaw) -> float | None:
-    """Share of the range over which the curve's 95 percent band holds the truth; what is absorbed is free."""
+    """Share of the range over which the curve's 95 percent band holds the truth; what is absorbed is free.
+
+    The true curve is taken in the scale of the model's piston, whose area tells it.
+    """
     form, curve = case.kind.form, case.kind.curve
     if curve is None or law.slot not in case.kind.places[0]:
         return None
-    factor = _bare(law, law.factor) if law.factor else ""
-    if (f"sign({factor})" if law.factor.startswith("sign(") else factor, _bare(law, law.argument)) != form:
+    factor, argument = _bare(law, law.factor) if law.factor else "", _bare(law, law.argument)
+    signed = law.factor.startswith("sign(")
+    if (f"sign({factor})" if signed else factor, argument) != form:
         return None
+    true = case.parameters()
+    scale = law.parameters.get("A_p", true.A_p) / true.A_p
+    size = scale ** (_OF_SCALE.get(law.slot, 0) - (0 if signed else _OF_SCALE.get(factor, 0)))
+    along = scale ** -_OF_SCALE.get(argument, 0)
     z = np.linspace(law.knots[0], law.knots[-1], _PLACES)
     basis = curve_basis(z, law.knots)
     deviation = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", basis, law.covariance, basis), 0))
-    wrong = basis @ law.coefficients - curve(z, case.laws()[0], case.parameters())
+    wrong = basis @ law.coefficients - size * curve(along * z, case.laws()[0], true)
     free = basis @ law.absorbed if law.absorbed.size else np.zeros((z.size, 0))
     weight = 1 / np.maximum(deviation, 1e-9 * float(np.max(np.abs(law.coefficients), initial=math.ulp(0.0))))
     wrong -= free @ np.linalg.lstsq(free * weight[:, None], wrong * weight, rcond=None)[0]

@@ -56,6 +56,18 @@ def test_the_band_is_asked_of_the_right_curve_alone() -> None:
     assert band(case, replace(off, absorbed=np.ones((15, 1)))) == 1.0
 
 
+def test_the_band_is_asked_in_the_scale_of_the_models_piston() -> None:
+    """A piston of 1.25 times the area moves 1.25 times less far with 1.25 times the force: the same angle."""
+    case = NAMED["damping.position-large-1"]
+    right = law(case, "v", "x", sd=60.0)
+    area = {"A_p": 1.25 * case.parameters().A_p}
+    values, spread = 1.25**2 * right.coefficients, 1.25**4 * right.covariance
+    scaled = replace(right, knots=right.knots / 1.25, coefficients=values, covariance=spread, parameters=area)
+    assert band(case, scaled) == 1.0
+    assert band(case, replace(scaled, parameters={})) < 0.7
+    assert band(case, replace(right, parameters=area)) < 0.7
+
+
 @pytest.mark.parametrize(
     ("change", "missed"),
     [
