@@ -191,8 +191,7 @@ def race(runners: Sequence[Runner], settings: Settings, fine: Simulation) -> lis
     """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
 
     One that can gain too little beside what others have gained does not start. Of several starts of one candidate, one
-    that is higher after a point, and promises less, is given up at once; later the better one goes on. After a point
-    the better half goes on, as far as it promises anything (Jamieson and Talwalkar 2016, AISTATS).
+    that is higher after a point, and promises less, is given up at once; later the better one goes on.
 
     Args:
         runners: the most promising first.
@@ -204,23 +203,20 @@ def race(runners: Sequence[Runner], settings: Settings, fine: Simulation) -> lis
         if fit is not None and fit.good:
             running.append((advance(fit, 1), runner.before))
             gained = max(gained, runner.before - running[-1][0].point.cost)
-    running = sorted(_not_worse(running), key=_promise)
-    half = max((len(running) + 1) // 2, settings.finalists)
-    resting = [one for k, one in enumerate(running) if k >= half or _promise(one) >= 0]
-    running = running[: len(running) - len(resting)]
+    running, resting = _not_worse(running), list[tuple[FinalFit, float]]()
     points, least = settings.heat - 1, 0.0
     while running:
         running = _best_starts([(advance(fit, points), before) for fit, before in running])
         points = settings.heat
-        least = settings.promising * max(before - fit.expected for fit, before in (*running, *resting))
-        going = [one for one in running if one[0].state.outcome is None and one[1] - one[0].expected >= least]
+        least = settings.promising * max(0.0, *(-_promise(one) for one in (*running, *resting)))
+        going = [one for one in running if one[0].state.outcome is None and -_promise(one) >= least]
         if len(going) <= settings.finalists:
             break
         resting += [one for one in running if not any(one is other for other in going)]
         running = going
     ranked = sorted(_best_starts([*running, *resting]), key=_promise)
     ended = [
-        (converged(fit, fine) if k < settings.finalists and before - fit.expected >= max(least, 0.0) else fit, before)
+        (converged(fit, fine) if k < settings.finalists and before - fit.expected >= least else fit, before)
         for k, (fit, before) in enumerate(ranked)
     ]
     return [fit for fit, before in sorted(ended, key=lambda one: one[0].point.cost - one[1])]
