@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -16,13 +16,10 @@ from pysim.nouns.where import Where
 from pysim.types import BadInput, Criterion, Dataset, Note, ProgressEvent, RecordFit
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from pysim.workflow import Initial
 
 Limits = Mapping[str, float]
 Criteria = str | Limits | None
-_FINE = 0.01  # of the tolerance that a search has
 _AT_LEAST = ("fit %",)  # columns of which more is better
 _HEAD = ("model", "log", "signal", "use", "fit %", "rms", "unit", "x noise")
 
@@ -51,27 +48,9 @@ def compare(*given: Any, initial: Initial = None, criteria: Criteria = None, pro
     with showing(progress, "comparing") as say:
         for name, one in zip(names, models, strict=True):
             say(ProgressEvent(f"simulating {name}"))
-            records[name], more = _beside(one, dataset, initial)
+            records[name], more = one.beside(dataset, initial)
             notes += more
     return Comparison(records, dataset, criteria, tuple(dict.fromkeys(notes)))
-
-
-def _beside(one: Model, dataset: Dataset, initial: Initial) -> tuple[tuple[RecordFit, ...], tuple[Note, ...]]:
-    """Every log beside the model, with the use that the data set says."""
-    from pysim.identify.greybox import Simulation
-    from pysim.identify.greybox.comparison import compared
-    from pysim.workflow import fit_problem, reference_of
-
-    uses = [record.use for record in dataset.logs()]
-    all_fit = replace(dataset, records=tuple(replace(record, use="fit") for record in dataset.records))
-    problem = fit_problem(
-        one.compiled, [all_fit], values=one.values, nothing_free=True, initial=initial,
-        reference_hz=reference_of(dataset.responses()),
-    )  # fmt: skip
-    found = compared(problem, np.zeros(0), Simulation().finer(_FINE))  # one run each: no error of it may count
-    if not found.records and not found.responses:
-        raise BadInput(f"{one.name} could not be simulated along any log; try model.simulate(data[...]) to see why")
-    return tuple(replace(record, use=uses[record.index]) for record in found.records), (*problem.notes, *found.notes)
 
 
 def _names(models: list[Model]) -> list[str]:
@@ -147,17 +126,20 @@ class Comparison(Shown):
 
         return Where(failures(list(self.records.values())[-1], self.dataset))
 
-    def plot(self, log: str = "") -> Figure:
+    def plot(self, log: str = "", *, interactive: bool = False) -> Any:
         """One log, measured and as each model has it, with what is left.
 
         Args:
             log: its name; by default a log that was held out, where the first model fails most.
+            interactive: a Plotly figure in place of Matplotlib's.
         """
+        from pysim.present.interactive import as_plotly, beside_figure
         from pysim.present.overlay import logs_figure
 
         index = self._chosen(log)
         own = {name: [one for one in records if one.index == index] for name, records in self.records.items()}
-        return logs_figure({name: found[0] for name, found in own.items() if found})
+        beside = {name: found[0] for name, found in own.items() if found}
+        return as_plotly(beside_figure(beside)) if interactive else logs_figure(beside)
 
     def _chosen(self, log: str) -> int:
         first = next(iter(self.records.values()))

@@ -19,8 +19,6 @@ from pysim.types import BadInput, Dataset
 from pysim.types import Diagnosis as Answer
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from pysim.diagnosis import Session
     from pysim.workflow import Initial, SessionParts
 
@@ -240,11 +238,13 @@ class Diagnosis(Shown):
 
         return text(whole(self.found))
 
-    def plot(self) -> Figure:
-        """The error, step by step."""
+    def plot(self, *, interactive: bool = False) -> Any:
+        """The error, step by step; a Plotly figure where `interactive`."""
+        from pysim.present import interactive as moving
         from pysim.present.diagnosis import error_figure
 
-        return error_figure(self.found.history)
+        history = self.found.history
+        return moving.as_plotly(moving.error_figure(history)) if interactive else error_figure(history)
 
     def report(self, folder: Path | str) -> dict[str, Path]:
         """Write report.html with its pictures, the fitted values, and class and FMU where effects were added."""

@@ -19,8 +19,6 @@ from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent
 from pysim.types import Fit as Found
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from pysim.identify.greybox import Problem, Profile, Tried
     from pysim.workflow import Initial
 
@@ -190,23 +188,32 @@ class Fit(Shown):
 
         return text(self._whole())
 
-    def plot(self, what: str = "log", log: str = "") -> Figure:
+    def plot(self, what: str = "log", log: str = "", *, interactive: bool = False) -> Any:
         """Draw the fit.
 
         Args:
             what: "log" (measured and fitted, and what is left), "parameters" (between their bounds), "correlation".
             log: its name; the one with the largest residual by default.
+            interactive: a Plotly figure in place of Matplotlib's.
         """
         from pysim.nouns.comparison import Comparison
+        from pysim.present import interactive as moving
         from pysim.present.fit import fit_correlation_figure, fit_parameters_figure
 
-        if what == "parameters":
-            return fit_parameters_figure(self.found)
-        if what == "correlation":
-            return fit_correlation_figure(self.found)
-        if what != "log":
+        if what == "log":
+            return Comparison({"fitted": self.found.records}, self.dataset).plot(log, interactive=interactive)
+        if what not in ("parameters", "correlation"):
             raise BadInput(f'plot: {what!r} is not known; write "log", "parameters" or "correlation"')
-        return Comparison({"fitted": self.found.records}, self.dataset).plot(log)
+        if not interactive:
+            return (fit_parameters_figure if what == "parameters" else fit_correlation_figure)(self.found)
+        if what == "correlation":
+            found = moving.correlation_figure([*self.values], self.found.correlation.tolist())
+        else:
+            bounded = [e for e in self.found.estimates if math.isfinite(e.lower) and math.isfinite(e.upper)]
+            found = moving.parameters_figure([
+                {"name": e.name, "lower": e.lower, "upper": e.upper, "after": (e.value, *e.interval)} for e in bounded
+            ])  # fmt: skip
+        return moving.as_plotly(found)
 
     def save(self, folder: Path | str) -> Path:
         """Keep the fit: measurements, FMU, what was asked and what was found. `Fit.load(folder)` gives it back.

@@ -14,6 +14,7 @@ from pysim.types._frozen import FrozenMapping
 
 MOST = 1900  # characters of what a noun prints
 _WIDEST = 44  # characters of a cell
+EXTRA = '"hydraulic-test-bench[notebook]"'  # what pip calls all that notebooks may want
 
 
 @dataclass(frozen=True)
@@ -125,6 +126,11 @@ class Shown:
     def to_dataframe(self) -> Any:
         """The table, as a pandas DataFrame."""
         return self.table.to_dataframe()
+
+    def to_xarray(self) -> Any:
+        """What `to_dataframe` gives, as an xarray.Dataset."""
+        optional_package("xarray", "an xarray.Dataset needs xarray", EXTRA)
+        return self.to_dataframe().to_xarray()
 
     def __repr__(self) -> str:
         words = "\n".join(self._words)
