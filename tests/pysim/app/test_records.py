@@ -42,6 +42,23 @@ def test_answers_are_those_of_the_data_and_model_as_they_are(project: Project) -
     assert Answers.of(project).all == ()
 
 
+@pytest.mark.parametrize("way", ["an older form of the records", "an older form of the answer", "cut short"])
+def test_a_result_of_another_version_is_named_and_not_read(project: Project, way: str) -> None:
+    folder = project.results("diagnose")
+    if way == "an older form of the records":
+        about = np.frombuffer(json.dumps({"form": 1, "stages": []}).encode(), dtype=np.uint8)
+        np.savez(folder / RECORDS, about=about)
+    elif way == "an older form of the answer":
+        (folder / ANSWER).write_text(json.dumps({"verdict": "none", "ledger": []}))
+    else:
+        (folder / ANSWER).write_text('{"verdict": ')
+    found = Answers.of(project)
+    assert found.all == ()
+    assert [work.title for work in found.unreadable] == ["Find"]
+    project.change(model="Another")  # what is of other data is none of today's business
+    assert Answers.of(project).unreadable == ()
+
+
 def test_lines_are_the_samples_and_the_residual_over_noise(project: Project) -> None:
     (answer,) = Answers.of(project).all
     overlay = compared_overlay(answer, 2)
