@@ -10,9 +10,9 @@ import numpy as np
 
 from pysim.nouns.common import dataset_of
 from pysim.nouns.model import Model
-from pysim.nouns.progress import Progress, showing
 from pysim.nouns.table import Shown, Table
 from pysim.nouns.where import Where
+from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Criterion, Dataset, Note, ProgressEvent, RecordFit
 
 if TYPE_CHECKING:
@@ -32,7 +32,7 @@ def compare(*given: Any, initial: Initial = None, criteria: Criteria = None, pro
         initial: of each log: "rest", "estimate", state -> value; None as the data say, else near rest. Initial states
             that are not given are estimated from the log itself.
         criteria: "thesis" judges logs by thesis Table 1.4; column of the table -> limit judges by your own.
-        progress: see `pysim.nouns.progress.showing`.
+        progress: see `pysim.present.progress.showing`.
     Raises:
         BadInput: no model, what does not fit together, or a model that cannot be simulated along any log.
     """

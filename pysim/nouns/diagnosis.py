@@ -12,9 +12,9 @@ from pysim.nouns.common import Measured, dataset_of
 from pysim.nouns.fit import Fit
 from pysim.nouns.law import Law, laws_of
 from pysim.nouns.model import Model
-from pysim.nouns.progress import Listener, Progress, showing
 from pysim.nouns.table import MOST, Shown, Table
 from pysim.nouns.where import Where
+from pysim.present.progress import Listener, Progress, showing
 from pysim.types import BadInput, Dataset
 from pysim.types import Diagnosis as Answer
 
@@ -44,7 +44,7 @@ def diagnose(
         max_effects: that are added at most.
         initial: of each log: "rest", "estimate", or state -> value; None as the fit had it, else as the data say.
         checkpoint: file that a diagnosis which was stopped goes on from.
-        progress: see `pysim.nouns.progress.showing`.
+        progress: see `pysim.present.progress.showing`.
     Raises:
         BadInput: what does not fit together, or measurements that cannot carry a diagnosis.
     """

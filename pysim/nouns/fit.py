@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING, Any
 
 from pysim.nouns.common import Measured, dataset_of, libraries_of
 from pysim.nouns.model import Model
-from pysim.nouns.progress import Progress, showing
 from pysim.nouns.run import Run
 from pysim.nouns.table import MOST, Shown, Table, html_of
+from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent
 from pysim.types import Fit as Found
 
@@ -48,7 +48,7 @@ def fit(
         seed: of the draw.
         outputs: columns to compare; all that are measured by default.
         folder: keeps the search, so that one that was stopped goes on from there.
-        progress: see `pysim.nouns.progress.showing`.
+        progress: see `pysim.present.progress.showing`.
     Raises:
         BadInput: nothing free, what does not fit together, or a model that cannot be simulated.
     """
