@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pysim.io.prepare import logs_called
 from pysim.nouns.common import dataset_of
 from pysim.nouns.model import Model
 from pysim.nouns.table import Shown, Table
@@ -136,29 +137,18 @@ class Comparison(Shown):
         from pysim.present.interactive import as_plotly, beside_figure
         from pysim.present.overlay import logs_figure
 
-        index = self._chosen(log)
-        own = {name: [one for one in records if one.index == index] for name, records in self.records.items()}
-        beside = {name: found[0] for name, found in own.items() if found}
+        sources = {record.source for record in logs_called(self.dataset, log)} if log else set()
+        first = [one for one in next(iter(self.records.values())) if one.source in sources or not log]
+        if not first:
+            raise BadInput("nothing to draw: no such log over time was compared", argument="log")
+        index = max(first, key=lambda one: (one.use != "fit", max(one.rms.values()))).index
+        beside = {name: one for name, records in self.records.items() for one in records if one.index == index}
         return as_plotly(beside_figure(beside)) if interactive else logs_figure(beside)
 
-    def _chosen(self, log: str) -> int:
-        first = next(iter(self.records.values()))
-        if log:
-            named = [one for one in first if log in (one.source, _stem(one.source))]
-            if not named:
-                raise BadInput(
-                    f"no log {log!r} was compared; there are {', '.join(one.source for one in first)}", argument="log"
-                )
-            return named[0].index
-        if not first:
-            raise BadInput("nothing to draw: no log over time was compared")
-        return max(first, key=lambda one: (one.use != "fit", max(one.rms.values()))).index
-
     @property
-    def _shown(self) -> Table:
-        table = self.table
-        alone = len(self.records) == 1
-        return Table({name: own for name, own in table.columns.items() if not (alone and name == "model")})
+    def _tables(self) -> tuple[Table, ...]:
+        names = [name for name in self.table.columns if name != "model" or len(self.records) > 1]
+        return (self.table.of_columns(*names),)
 
     @property
     def _words(self) -> list[str]:
@@ -189,7 +179,3 @@ def _passes(row: tuple[Any, ...], one: RecordFit, limits: Limits) -> bool:
 def _thesis(records: Mapping[str, tuple[RecordFit, ...]]) -> list[Criterion]:
     found = [d.criterion for own in records.values() for one in own for ds in one.deviations.values() for d in ds]
     return list(dict.fromkeys(found))
-
-
-def _stem(source: str) -> str:
-    return source.rpartition("/")[2].rpartition(".")[0] or source

@@ -116,8 +116,12 @@ class Model(Shown):
     label: str = ""
 
     def __post_init__(self) -> None:
-        for name in ("values", "bounds", "priors"):
-            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
+        object.__setattr__(self, "values", FrozenMapping(self.values))
+        for name in ("bounds", "priors"):
+            pairs = {parameter: (low, high) for parameter, (low, high) in getattr(self, name).items()}
+            object.__setattr__(self, name, FrozenMapping(pairs))
+        object.__setattr__(self, "chosen", tuple(self.chosen))
+        object.__setattr__(self, "held", frozenset(self.held))
 
     # --- what it is --------------------------------------------------------------------------------------------------
 
@@ -298,13 +302,19 @@ class Model(Shown):
         wider, found = self._taking(effects)
         return replace(wider, candidates=tuple(dict.fromkeys([*self.candidates, *found])))
 
+    def refitted(self) -> dict[str, Any]:
+        """What a fit may change, with the bounds and the prior knowledge that were given."""
+        free = self.free_names
+        own = {"bounds": self.bounds, "priors": self.priors}
+        return {"free": free, **{k: {n: pair for n, pair in v.items() if n in free} for k, v in own.items()}}
+
     def usual(self) -> dict[str, float]:
         """Where a fit begins with the effects that were added: at usual sizes, as off may be no start."""
         found = {}
         for effect in self.effects_in:
             for parameter in effect.strengths:
                 name = f"{self.places[effect.name]}.{parameter.name}"
-                if name not in self.values and parameter.default == parameter.off:
+                if name in self.free_names and name not in self.values and parameter.default == parameter.off:
                     found[name] = float(min(max(parameter.nominal, parameter.min), parameter.max))
         return found
 
@@ -470,12 +480,8 @@ class Model(Shown):
     @property
     def table(self) -> Table:
         """What a fit may change: value and bounds."""
-        model = self.compiled
-        rows = []
-        for name in self.free_names:
-            v = model[name]
-            low, high = self.bounds.get(name, (v.min, v.max))
-            rows.append((name, self.values.get(name, v.start), low, high, _unit(v)))
+        own = [self.parameters.row(name) for name in self.free_names]
+        rows = [tuple(row[column] for column in ("name", "value", "min", "max", "unit")) for row in own]
         return Table.of(("free", "value", "lowest", "highest", "unit"), rows, key="free")
 
     @property
