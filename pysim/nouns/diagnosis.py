@@ -58,7 +58,7 @@ def diagnose(
             f"diagnose: the model has {names} already; diagnose the one without, which has it as a candidate"
         )
     parts = _parts(model, dataset, begin, effects)
-    work = partial(searched, checkpoint=checkpoint and Path(checkpoint))
+    work = partial(searched, checkpoint=None if checkpoint is None else Path(checkpoint))
     found = _asked(parts, work, progress, f"diagnosing {model.name}", Settings(max_effects=max_effects))
     return Diagnosis(found, model, parts)
 
@@ -82,7 +82,7 @@ def locate(
 
     model, dataset, begin = _given(subject, data, initial)
     parts = _parts(replace(model, effects_in=()), dataset, begin)
-    work = partial(learn, effects=model.effects_in, checkpoint=checkpoint and Path(checkpoint))
+    work = partial(learn, effects=model.effects_in, checkpoint=None if checkpoint is None else Path(checkpoint))
     return laws_of(_asked(parts, work, progress, f"locating what {model.name} lacks"), model)
 
 
