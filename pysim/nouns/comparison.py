@@ -151,6 +151,10 @@ class Comparison(Shown):
         return (self.table.of_columns(*names),)
 
     @property
+    def _more(self) -> list[str]:
+        return [*self.warnings]
+
+    @property
     def _words(self) -> list[str]:
         return [f"{', '.join(self.records)} against {self.dataset.name}"]
 

@@ -139,6 +139,10 @@ class Fit(Shown):
         return tuple(words(note) for note in fit_warnings(self.found))
 
     @property
+    def _alarms(self) -> tuple[str, ...]:
+        return self.warnings
+
+    @property
     def ok(self) -> bool:
         """Whether nothing speaks against it."""
         return not self.warnings

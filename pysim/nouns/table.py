@@ -120,11 +120,6 @@ class Shown:
         raise NotImplementedError
 
     @property
-    def warnings(self) -> tuple[str, ...]:
-        """What speaks against it, in sentences."""
-        return ()
-
-    @property
     def _words(self) -> list[str]:
         """Lines ahead of the tables."""
         return []
@@ -139,6 +134,11 @@ class Shown:
         """Lines behind the tables."""
         return []
 
+    @property
+    def _alarms(self) -> tuple[str, ...]:
+        """Why not to trust it, in sentences."""
+        return ()
+
     def to_dataframe(self) -> Any:
         """The table, as a pandas DataFrame."""
         return self.table.to_dataframe()
@@ -149,16 +149,16 @@ class Shown:
         return self.to_dataframe().to_xarray()
 
     def __repr__(self) -> str:
-        said, tables = [*self._more, *(f"! {text}" for text in self.warnings)], [t for t in self._tables if len(t)]
+        said, tables = [*self._more, *(f"! {text}" for text in self._alarms)], [t for t in self._tables if len(t)]
         while len("\n".join([*self._words, *said])) > MOST - _ROOM and said:
-            said = [*said[:-2], "! ... see .warnings for all"] if len(said) > 2 else []
+            said = [*said[:-2], "... see .warnings for all"] if len(said) > 2 else []
         room = MOST - len("\n".join([*self._words, *said])) - 10
         rows = [line for table in tables for line in table.lines(room // len(tables))]
         return "\n".join([*self._words, *rows, *said])
 
     def _repr_html_(self) -> str:
         words = " | ".join([*self._words, *self._more[:_FIRST]])
-        said = "".join(f'<p style="color:#b00020">{escape(one)}</p>' for one in self.warnings)
+        said = "".join(f'<p style="color:#b00020">{escape(one)}</p>' for one in self._alarms)
         said = f"<p>{escape(words)}</p>{said}"
         if len(said) > MOST // 2:
             said = f"{said[: MOST // 2].rpartition('<p')[0]}<p>...</p>" if "<p" in said[3 : MOST // 2] else "<p>...</p>"
