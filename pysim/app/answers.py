@@ -9,12 +9,13 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
-from pysim.app.jobs import ANSWER, DONE, RECORDS, Job, read_job
+from pysim.app.jobs import ANSWER, DONE, RECORDS, Job, Work, read_job
 from pysim.app.project import Project
 from pysim.io import StageFile, read_stages
 from pysim.types import BadInput
 
 _STEPS = ("prior", "refit")
+_KEYS = ("verdict", "reason", "added", "ranking", "confusable", "error", "missing", "next_test", "notes", "files")
 
 
 @dataclass(frozen=True)
@@ -53,41 +54,40 @@ class Answer:
         return self.stages.about[-1]
 
 
-def read_answer(folder: Path, fingerprint: str) -> Answer | None:
-    """A finished result of the data and the model as they are; None where there is none."""
-    job = read_job(folder)
-    if job is None or job.state != DONE or job.fingerprint != fingerprint:
-        return None
-    try:
-        return _read(folder, job, (folder / ANSWER).stat().st_mtime_ns)
-    except (OSError, ValueError, BadInput):
-        return None
-
-
 @lru_cache(maxsize=32)
-def _cached(folder: Path, _modified: int) -> tuple[Mapping[str, Any], StageFile]:
+def _read(folder: Path, _modified: int) -> tuple[Mapping[str, Any], StageFile]:
     data = json.loads((folder / ANSWER).read_text(encoding="utf-8"))
+    missing = [key for key in _KEYS if key not in data]
+    if missing:
+        raise BadInput(f"{folder / ANSWER} has no {', '.join(missing)}; run it again")
     return data, read_stages(folder / RECORDS)
-
-
-def _read(folder: Path, job: Job, modified: int) -> Answer:
-    data, stages = _cached(folder, modified)
-    return Answer(job, folder, data, stages)
 
 
 @dataclass(frozen=True)
 class Answers:
-    """All finished results of a project as it is now, the newest first."""
+    """All finished results of a project as it is now, the newest first.
+
+    Args:
+        unreadable: work that was done, as by an earlier version, and whose result cannot be read.
+    """
 
     all: tuple[Answer, ...]
+    unreadable: tuple[Work, ...] = ()
 
     @classmethod
     def of(cls, project: Project) -> Answers:
         """Read from its folder."""
         now = project.fingerprint()
-        folders = sorted((project.folder / "results").glob("*"))
-        found = [answer for answer in (read_answer(folder, now) for folder in folders) if answer is not None]
-        return cls(tuple(sorted(found, key=lambda answer: -(answer.job.ended or 0.0))))
+        found, unreadable = [], []
+        for folder in sorted((project.folder / "results").glob("*")):
+            job = read_job(folder)
+            if job is None or job.state != DONE or job.fingerprint != now:
+                continue
+            try:
+                found.append(Answer(job, folder, *_read(folder, (folder / ANSWER).stat().st_mtime_ns)))
+            except (OSError, ValueError, TypeError, BadInput):
+                unreadable.append(job.work)
+        return cls(tuple(sorted(found, key=lambda answer: -(answer.job.ended or 0.0))), tuple(unreadable))
 
     def with_effects(self, added: tuple[str, ...]) -> Answer | None:
         """The result whose model has just these effects; without any, whatever has the refitted model."""

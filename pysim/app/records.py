@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 
 from pysim.app.answers import Answer
 from pysim.app.decimate import decimated, window
-from pysim.app.figures import LOOKS, Figure, overlay_figure, signal_trace
 from pysim.io import shown_unit
+from pysim.present.interactive import LOOKS, Figure, overlay_figure, signal_trace
 from pysim.types import MeasuredRecord, Record
 
 Array = NDArray[np.float64]

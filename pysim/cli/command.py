@@ -42,7 +42,7 @@ from pysim.cli.outputs import LOG, answer_folder, prepare_answer, prepare_file, 
 from pysim.workflow import command_line
 
 if TYPE_CHECKING:
-    from pysim.cli.progress import ProgressBar
+    from pysim.present.progress import ProgressBar
 
 DONE, NO = 0, 1
 
@@ -149,7 +149,7 @@ class Given:
     @contextmanager
     def progress(self, title: str) -> Iterator[ProgressBar]:
         """A bar on standard error that takes (done, total)."""
-        from pysim.cli.progress import ProgressBar
+        from pysim.present.progress import ProgressBar
 
         with ProgressBar(title) as bar:
             yield bar
@@ -201,7 +201,7 @@ def _shown(given: Given, result: Any) -> int:
 
 def _reported(given: Given, result: Any) -> Any:
     """Write the folder of a result; the result, with the places of its files where its JSON tells them."""
-    from pysim.cli.progress import Working
+    from pysim.present.progress import Working
     from pysim.present.report import with_places, write_report
 
     folder = given.output

@@ -155,7 +155,7 @@ def _dataset(given: Given) -> Dataset | list[Dataset]:
 
 
 def _model(given: Given) -> Model:
-    from pysim.cli.progress import Working
+    from pysim.present.progress import Working
     from pysim.workflow import is_fmu, model_of
 
     name = given.typed["model"]

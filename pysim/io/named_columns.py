@@ -59,7 +59,7 @@ def optional_package(module: str, wanted_by: str, package: str) -> ModuleType:
     try:
         return import_module(module)
     except ImportError as error:
-        raise BadInput(f"{wanted_by}, and the package to read it is missing; run: pip install {package}") from error
+        raise BadInput(f"{wanted_by}, and the package for it is missing; run: pip install {package}") from error
 
 
 def refuse_missing(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
@@ -16,6 +16,7 @@ from pysim.io.memory import memory_bound
 from pysim.io.named_columns import Table, as_numbers, optional_package, refuse_many, refuse_missing
 from pysim.types import BadInput
 
+Choose = Callable[[ModuleType, Any], tuple[tuple[str, ...], list[str]]]
 _TIMES = 4  # of what is announced: batches, their texts and the numbers made of them are there at the same time
 
 
@@ -36,21 +37,41 @@ def read_parquet(
         BadInput: the package is missing, no Parquet file, a column that is not there or holds no numbers, or a file
             that unpacks to more than the limits.
     """
+
+    def choose(arrow: ModuleType, schema: Any) -> tuple[tuple[str, ...], list[str]]:
+        refuse_missing(path, names, schema.names, wanted_by)
+        return names, [name for name in names if _is_text(arrow, path, name, schema.field(name).type)]
+
+    with opened(path, choose, wanted_by, limits) as (file, _):
+        return _read(path, file, names, missing, limits)
+
+
+@contextmanager
+def opened(
+    path: Path, choose: Choose, wanted_by: str, limits: ReadLimits = LIMITS, package: str = "pyarrow"
+) -> Iterator[tuple[Any, tuple[str, ...]]]:
+    """The file, with the memory bound that its directory calls for, and the columns to read of it.
+
+    Args:
+        choose: of the package and the schema: these columns, and those of them whose cells are texts.
+        wanted_by, limits: as of `read_parquet`.
+        package: what pip calls the package.
+    Raises:
+        BadInput: as of `read_parquet`; what fails while the file is open is named too.
+    """
     need = f"{wanted_by}: {path} is a Parquet file"
-    arrow, parquet = (optional_package(module, need, "pyarrow") for module in ("pyarrow", "pyarrow.parquet"))
+    arrow, parquet = (optional_package(module, need, package) for module in ("pyarrow", "pyarrow.parquet"))
     try:
         with parquet.ParquetFile(path) as file:
-            schema = file.schema_arrow
-            refuse_missing(path, names, schema.names, wanted_by)
-            texts = [name for name in names if _is_text(arrow, path, name, schema.field(name).type)]
-            announced = refuse_large(path, file.metadata, names, wanted_by, limits)
+            names, texts = choose(arrow, file.schema_arrow)
+            announced = _refuse_large(path, file.metadata, names, wanted_by, limits)
         # the cells of a column of texts are kept once each, so that a repeated one does not multiply
         with (
             memory_bound(limits.memory + _TIMES * announced),
             _plain_memory(arrow),
             parquet.ParquetFile(path, read_dictionary=texts) as file,
         ):
-            return _read(path, file, names, missing, limits)
+            yield file, names
     except MemoryError as error:
         raise BadInput(
             f"{wanted_by}: {path} takes more memory than the sizes in its own directory call for; export it again, or "
@@ -84,7 +105,7 @@ def _plain_memory(arrow: ModuleType) -> Iterator[None]:
         arrow.set_memory_pool(before)
 
 
-def refuse_large(path: Path, about: Any, names: tuple[str, ...], wanted_by: str, limits: ReadLimits) -> int:
+def _refuse_large(path: Path, about: Any, names: tuple[str, ...], wanted_by: str, limits: ReadLimits) -> int:
     """What the directory announces must be within the limits.
 
     Returns:
@@ -112,7 +133,7 @@ def _read(path: Path, file: Any, names: tuple[str, ...], missing: frozenset[str]
         if row + batch.num_rows > values.shape[0]:
             raise BadInput(f"{path} holds more rows than it announces ({values.shape[0]}); export it again")
         for j, name in enumerate(names):
-            cells = _cells(batch.column(name))
+            cells = cells_of(batch.column(name))
             if cells.dtype.kind == "M":
                 cells = cells - begun.setdefault(name, cells[:1]).repeat(cells.size)
             found = as_numbers(path, name, cells, row=row + 1, missing=name in missing)
@@ -122,7 +143,7 @@ def _read(path: Path, file: Any, names: tuple[str, ...], missing: frozenset[str]
     return Table(values[:row], frozenset(seconds))
 
 
-def _cells(column: Any) -> NDArray[Any]:
+def cells_of(column: Any) -> NDArray[Any]:
     """Of some rows; of texts those that are the same are one object."""
     if not hasattr(column, "dictionary"):
         return np.asarray(column.to_numpy(zero_copy_only=False))

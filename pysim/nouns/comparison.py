@@ -3,26 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from pysim.io.prepare import logs_called
 from pysim.nouns.common import dataset_of
 from pysim.nouns.model import Model
-from pysim.nouns.progress import Progress, showing
 from pysim.nouns.table import Shown, Table
 from pysim.nouns.where import Where
+from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Criterion, Dataset, Note, ProgressEvent, RecordFit
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from pysim.workflow import Initial
 
 Limits = Mapping[str, float]
 Criteria = str | Limits | None
-_FINE = 0.01  # of the tolerance that a search has
 _AT_LEAST = ("fit %",)  # columns of which more is better
 _HEAD = ("model", "log", "signal", "use", "fit %", "rms", "unit", "x noise")
 
@@ -35,7 +33,7 @@ def compare(*given: Any, initial: Initial = None, criteria: Criteria = None, pro
         initial: of each log: "rest", "estimate", state -> value; None as the data say, else near rest. Initial states
             that are not given are estimated from the log itself.
         criteria: "thesis" judges logs by thesis Table 1.4; column of the table -> limit judges by your own.
-        progress: see `pysim.nouns.progress.showing`.
+        progress: see `pysim.present.progress.showing`.
     Raises:
         BadInput: no model, what does not fit together, or a model that cannot be simulated along any log.
     """
@@ -51,27 +49,9 @@ def compare(*given: Any, initial: Initial = None, criteria: Criteria = None, pro
     with showing(progress, "comparing") as say:
         for name, one in zip(names, models, strict=True):
             say(ProgressEvent(f"simulating {name}"))
-            records[name], more = _beside(one, dataset, initial)
+            records[name], more = one.beside(dataset, initial)
             notes += more
     return Comparison(records, dataset, criteria, tuple(dict.fromkeys(notes)))
-
-
-def _beside(one: Model, dataset: Dataset, initial: Initial) -> tuple[tuple[RecordFit, ...], tuple[Note, ...]]:
-    """Every log beside the model, with the use that the data set says."""
-    from pysim.identify.greybox import Simulation
-    from pysim.identify.greybox.comparison import compared
-    from pysim.workflow import fit_problem, reference_of
-
-    uses = [record.use for record in dataset.logs()]
-    all_fit = replace(dataset, records=tuple(replace(record, use="fit") for record in dataset.records))
-    problem = fit_problem(
-        one.compiled, [all_fit], values=one.values, nothing_free=True, initial=initial,
-        reference_hz=reference_of(dataset.responses()),
-    )  # fmt: skip
-    found = compared(problem, np.zeros(0), Simulation().finer(_FINE))  # one run each: no error of it may count
-    if not found.records and not found.responses:
-        raise BadInput(f"{one.name} could not be simulated along any log; try model.simulate(data[...]) to see why")
-    return tuple(replace(record, use=uses[record.index]) for record in found.records), (*problem.notes, *found.notes)
 
 
 def _names(models: list[Model]) -> list[str]:
@@ -147,36 +127,32 @@ class Comparison(Shown):
 
         return Where(failures(list(self.records.values())[-1], self.dataset))
 
-    def plot(self, log: str = "") -> Figure:
+    def plot(self, log: str = "", *, interactive: bool = False) -> Any:
         """One log, measured and as each model has it, with what is left.
 
         Args:
             log: its name; by default a log that was held out, where the first model fails most.
+            interactive: a Plotly figure in place of Matplotlib's.
         """
+        from pysim.present.interactive import as_plotly, beside_figure
         from pysim.present.overlay import logs_figure
 
-        index = self._chosen(log)
-        own = {name: [one for one in records if one.index == index] for name, records in self.records.items()}
-        return logs_figure({name: found[0] for name, found in own.items() if found})
-
-    def _chosen(self, log: str) -> int:
-        first = next(iter(self.records.values()))
-        if log:
-            named = [one for one in first if log in (one.source, _stem(one.source))]
-            if not named:
-                raise BadInput(
-                    f"no log {log!r} was compared; there are {', '.join(one.source for one in first)}", argument="log"
-                )
-            return named[0].index
+        sources = {record.source for record in logs_called(self.dataset, log)} if log else set()
+        first = [one for one in next(iter(self.records.values())) if one.source in sources or not log]
         if not first:
-            raise BadInput("nothing to draw: no log over time was compared")
-        return max(first, key=lambda one: (one.use != "fit", max(one.rms.values()))).index
+            raise BadInput("nothing to draw: no such log over time was compared", argument="log")
+        index = max(first, key=lambda one: (one.use != "fit", max(one.rms.values()))).index
+        beside = {name: one for name, records in self.records.items() for one in records if one.index == index}
+        return as_plotly(beside_figure(beside)) if interactive else logs_figure(beside)
 
     @property
-    def _shown(self) -> Table:
-        table = self.table
-        alone = len(self.records) == 1
-        return Table({name: own for name, own in table.columns.items() if not (alone and name == "model")})
+    def _tables(self) -> tuple[Table, ...]:
+        names = [name for name in self.table.columns if name != "model" or len(self.records) > 1]
+        return (self.table.of_columns(*names),)
+
+    @property
+    def _more(self) -> list[str]:
+        return [*self.warnings]
 
     @property
     def _words(self) -> list[str]:
@@ -207,7 +183,3 @@ def _passes(row: tuple[Any, ...], one: RecordFit, limits: Limits) -> bool:
 def _thesis(records: Mapping[str, tuple[RecordFit, ...]]) -> list[Criterion]:
     found = [d.criterion for own in records.values() for one in own for ds in one.deviations.values() for d in ds]
     return list(dict.fromkeys(found))
-
-
-def _stem(source: str) -> str:
-    return source.rpartition("/")[2].rpartition(".")[0] or source

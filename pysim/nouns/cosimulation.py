@@ -11,8 +11,8 @@ import numpy as np
 from pysim.nouns.common import Input, signal_of
 from pysim.nouns.controller import PlainBlock, step_arguments
 from pysim.nouns.model import Model, model
-from pysim.nouns.progress import Progress, showing
 from pysim.nouns.run import Run
+from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Experiment, ProgressEvent
 from pysim.types import Model as Compiled
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from pysim.cosim.members import Fmu
     from pysim.cosim.system import Part
 
+_SAID = 100  # times that a run says how far it is, at most
 _BLOCK = ("inputs", "outputs", "step", "state", "restore")
 
 
@@ -45,7 +46,7 @@ def cosimulate(
         inputs: "member.input" -> number, pairs (s, value), a row of values, a pandas column, or a function of time.
         record: "member.port"; all outputs and driven inputs by default.
         check: False gives back what a run that failed has reached, in place of an error.
-        progress: see `pysim.nouns.progress.showing`.
+        progress: see `pysim.present.progress.showing`.
     Raises:
         BadInput: an unknown name, units that differ, an input that nothing drives, or an algebraic loop.
         SimulationError: a member failed; `.record` is the part that was reached.
@@ -65,10 +66,12 @@ def cosimulate(
     system = System(tuple(parts), tuple(Connection(*pair, *_conversion(parts, *pair)) for pair in pairs))
     names = tuple(record) or (*system.outputs, *driven)
     times = np.asarray(dt * np.arange(round(stop / dt) + 1), dtype=np.float64)
+    every = -(-times.size // _SAID)
     with showing(progress, "co-simulation") as say:
 
         def heard(time: float) -> None:
-            say(ProgressEvent(f"at {time:.3g} of {stop:g} s"))
+            if round(time / dt) % every == 0:
+                say(ProgressEvent(f"at {time:.3g} of {stop:g} s"))
 
         experiment = Experiment(times, names, driven, rates=_rates(parts, driven))
         done = stepped(system, experiment, step=dt, check=check, progress=heard)

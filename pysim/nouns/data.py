@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -13,7 +13,6 @@ from pysim.io.counted import counted
 from pysim.io.dataset import read_described
 from pysim.io.load import is_frame, load_logs
 from pysim.io.load.load import Names
-from pysim.io.named_columns import optional_package
 from pysim.io.prepare import (
     Delay,
     Detrend,
@@ -39,9 +38,6 @@ from pysim.io.write_dataset import write_dataset
 from pysim.nouns.data_check import Check
 from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, repr=False)
@@ -211,11 +207,19 @@ class Data(Shown):
         names = tuple(self.now.signal(name).variable for name in record.data.names)
         return replace(record, data=replace(whole_rows(record.data), names=names))
 
-    def plot(self) -> Figure:
-        """Signals over time, a row per log and a column per unit; at most eight logs."""
-        from pysim.present.data_check.figures import time_logs_figure
+    def plot(self, *, interactive: bool = False) -> Any:
+        """Signals over time, a row per log and a column per unit; at most eight logs.
 
-        return time_logs_figure(self.now)
+        Args:
+            interactive: a Plotly figure in place of Matplotlib's, with a panel per signal.
+        """
+        from pysim.present.data_check.figures import time_logs_figure
+        from pysim.present.interactive import as_plotly, lines_figure
+
+        if not interactive:
+            return time_logs_figure(self.now)
+        logs = zip(self.names, self.now.records, strict=True)
+        return as_plotly(lines_figure({name: one.data for name, one in logs if isinstance(one.data, Record)}))
 
     def to_dataframe(self) -> Any:
         """A pandas.DataFrame over log and time in s, columns "x [mm]" in the units of the logs."""
@@ -228,11 +232,6 @@ class Data(Shown):
         if not frames:
             raise BadInput("there are no logs over time to make a table of")
         return pandas().concat(frames, names=["log"])
-
-    def to_xarray(self) -> Any:
-        """An xarray.Dataset with the same columns over log and time; a log has no values at the times of others."""
-        optional_package("xarray", "an xarray.Dataset needs xarray", "xarray")
-        return self.to_dataframe().to_xarray()
 
     def save(self, folder: Path | str) -> Path:
         """Write the raw logs as text and a dataset.toml with the steps, which every reader then does again.

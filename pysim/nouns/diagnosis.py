@@ -5,6 +5,7 @@ from __future__ import annotations
 import textwrap
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -12,16 +13,13 @@ from pysim.nouns.common import Measured, dataset_of
 from pysim.nouns.fit import Fit
 from pysim.nouns.law import Law, laws_of
 from pysim.nouns.model import Model
-from pysim.nouns.progress import Listener, Progress, showing
-from pysim.nouns.table import MOST, Shown, Table
+from pysim.nouns.table import Shown, Table
 from pysim.nouns.where import Where
+from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Dataset
 from pysim.types import Diagnosis as Answer
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
-    from pysim.diagnosis import Session
     from pysim.workflow import Initial, SessionParts
 
 Subject = Model | Fit
@@ -46,24 +44,22 @@ def diagnose(
         max_effects: that are added at most.
         initial: of each log: "rest", "estimate", or state -> value; None as the fit had it, else as the data say.
         checkpoint: file that a diagnosis which was stopped goes on from.
-        progress: see `pysim.nouns.progress.showing`.
+        progress: see `pysim.present.progress.showing`.
     Raises:
         BadInput: what does not fit together, or measurements that cannot carry a diagnosis.
     """
     from pysim.diagnosis import Settings
     from pysim.diagnosis import diagnose as searched
 
-    model, dataset, begin = subject_of(subject, data, initial)
+    model, dataset, begin = _given(subject, data, initial)
     if model.effects_in:
         names = ", ".join(one.name for one in model.effects_in)
         raise BadInput(
             f"diagnose: the model has {names} already; diagnose the one without, which has it as a candidate"
         )
-    parts = parts_of(model, dataset, begin, effects)
-    found = asked(
-        parts, lambda session, say: searched(session, progress=say, checkpoint=_path(checkpoint)),
-        progress, f"diagnosing {model.name}", Settings(max_effects=max_effects),
-    )  # fmt: skip
+    parts = _parts(model, dataset, begin, effects)
+    work = partial(searched, checkpoint=None if checkpoint is None else Path(checkpoint))
+    found = _asked(parts, work, progress, f"diagnosing {model.name}", Settings(max_effects=max_effects))
     return Diagnosis(found, model, parts)
 
 
@@ -84,70 +80,50 @@ def locate(
     """
     from pysim.diagnosis import learn
 
-    model, dataset, begin = subject_of(subject, data, initial)
-    parts = parts_of(replace(model, effects_in=()), dataset, begin)
-    found = asked(
-        parts, lambda session, say: learn(session, model.effects_in, progress=say, checkpoint=_path(checkpoint)),
-        progress, f"locating what {model.name} lacks",
-    )  # fmt: skip
-    return laws_of(found, model)
+    model, dataset, begin = _given(subject, data, initial)
+    parts = _parts(replace(model, effects_in=()), dataset, begin)
+    work = partial(learn, effects=model.effects_in, checkpoint=None if checkpoint is None else Path(checkpoint))
+    return laws_of(_asked(parts, work, progress, f"locating what {model.name} lacks"), model)
 
 
-def subject_of(subject: Subject, data: Measured | None, initial: Initial) -> tuple[Model, Dataset, Initial]:
+def _given(subject: Subject, data: Measured | None, initial: Initial) -> tuple[Model, Dataset, Initial]:
     """Model, measurements, and what is known of each log's first sample."""
     if isinstance(subject, Fit):
-        model, dataset = subject.model, subject.dataset if data is None else dataset_of(data)
-        initial = subject.initial if initial is None else initial
-    elif isinstance(subject, Model):
-        if data is None:
-            raise BadInput(
-                "a model alone has no measurements; write diagnose(model, data), or diagnose(fit)", argument="data"
-            )
-        model, dataset = subject, dataset_of(data)
-    else:
+        dataset = subject.dataset if data is None else dataset_of(data)
+        return subject.model, dataset, subject.initial if initial is None else initial
+    if not isinstance(subject, Model):
         raise BadInput(
             f"{type(subject).__name__} is no model; give what pysim.model or pysim.fit returns", argument="subject"
         )
-    return model, dataset, initial
+    if data is None:
+        raise BadInput(
+            "a model alone has no measurements; write diagnose(model, data), or diagnose(fit)", argument="data"
+        )
+    return subject, dataset_of(data), initial
 
 
-def parts_of(model: Model, dataset: Dataset, initial: Initial, effects: Sequence[str] = ()) -> SessionParts:
+def _parts(model: Model, dataset: Dataset, initial: Initial, effects: Sequence[str] = ()) -> SessionParts:
     """All that a session is made of."""
     from pysim.workflow import beginning, initial_values, reference_of, session_parts
 
-    free, begun = model.free_names, {}
+    begun: dict[str, float] = {}
     if isinstance(initial, Mapping):
         begun, initial = initial_values(model.base, initial), "rest"
     parts = session_parts(
-        model.base,
-        beginning(dataset, initial),
-        libraries=model.libraries,
-        free=free,
-        bounds={name: pair for name, pair in model.bounds.items() if name in free},
-        priors={name: known for name, known in model.priors.items() if name in free},
-        values={**model.values, **begun},
-        effects=effects,
-        reference_hz=reference_of(dataset.responses()),
-    )
+        model.base, beginning(dataset, initial), libraries=model.libraries, **model.refitted(),
+        values={**model.values, **begun}, effects=effects, reference_hz=reference_of(dataset.responses()),
+    )  # fmt: skip
     return replace(parts, rested=not begun)
 
 
-def asked(
-    parts: SessionParts,
-    work: Callable[[Session, Listener], Answer],
-    progress: Progress,
-    title: str,
-    settings: Any = None,
+def _asked(
+    parts: SessionParts, work: Callable[..., Answer], progress: Progress, title: str, settings: Any = None
 ) -> Answer:
     """Run a step of the diagnosis and make its answer whole."""
     from pysim.workflow import session_of, whole_answer
 
     with showing(progress, title) as say:
-        return whole_answer(work(session_of(parts, settings), say), parts)
-
-
-def _path(checkpoint: Path | str | None) -> Path | None:
-    return None if checkpoint is None else Path(checkpoint)
+        return whole_answer(work(session_of(parts, settings), progress=say), parts)
 
 
 @dataclass(frozen=True, repr=False)
@@ -240,11 +216,13 @@ class Diagnosis(Shown):
 
         return text(whole(self.found))
 
-    def plot(self) -> Figure:
-        """The error, step by step."""
+    def plot(self, *, interactive: bool = False) -> Any:
+        """The error, step by step; a Plotly figure where `interactive`."""
+        from pysim.present import interactive as moving
         from pysim.present.diagnosis import error_figure
 
-        return error_figure(self.found.history)
+        history = self.found.history
+        return moving.as_plotly(moving.error_figure(history)) if interactive else error_figure(history)
 
     def report(self, folder: Path | str) -> dict[str, Path]:
         """Write report.html with its pictures, the fitted values, and class and FMU where effects were added."""
@@ -269,9 +247,6 @@ class Diagnosis(Shown):
         sentence = self.sentence if len(self.sentence) < 700 else f"{self.sentence[:697]}..."
         return [f"Verdict: {self.verdict}", *textwrap.wrap(sentence, 100)]
 
-    def __repr__(self) -> str:
-        parts = [self._words, self.steps.lines(500)]
-        parts += [self.effects.lines(500)] if len(self.effects) else []
-        parts += [self.candidates.lines(300)] if len(self.candidates) else []
-        text = "\n".join("\n".join(lines) for lines in parts)
-        return text if len(text) <= MOST + 90 else f"{text[: MOST - 40].rpartition(chr(10))[0]}\n... summary() has all"
+    @property
+    def _tables(self) -> tuple[Table, ...]:
+        return self.steps, self.effects, self.candidates

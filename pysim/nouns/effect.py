@@ -17,8 +17,6 @@ from pysim.types import BadInput, EffectParameter
 from pysim.types import Effect as Described
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from pysim.effects import Slot
 
 Range = Sequence[Any]  # lowest, highest, usual, unit
@@ -121,9 +119,14 @@ class Effect(Shown):
         ]
         return Table.of(("parameter", "min", "max", "usual", "unit", "0 is off"), rows, key="parameter")
 
-    def plot(self) -> Figure:
-        """The law at usual sizes, over its first variable; without numbers, as its range is the model's."""
+    def plot(self, *, interactive: bool = False) -> Any:
+        """The law at usual sizes, over its first variable; without numbers, as its range is the model's.
+
+        Args:
+            interactive: a Plotly figure in place of Matplotlib's.
+        """
         from pysim.effects import law_constants, law_sketch
+        from pysim.present import interactive as moving
         from pysim.present.effect import sketch_figure
 
         drawn = None
@@ -133,6 +136,8 @@ class Effect(Shown):
             raise BadInput(
                 f"effect {self.name}: its law is more than a few strokes can show; simulate the model with it"
             )
+        if interactive:
+            return moving.as_plotly(moving.sketch_figure(drawn, self.name))
         return sketch_figure(drawn, self.name)
 
     def save(self, folder: Path | str) -> Path:

@@ -12,19 +12,18 @@ from typing import TYPE_CHECKING, Any
 
 from pysim.nouns.common import Measured, dataset_of, libraries_of
 from pysim.nouns.model import Model
-from pysim.nouns.progress import Progress, showing
 from pysim.nouns.run import Run
-from pysim.nouns.table import MOST, Shown, Table, html_of
+from pysim.nouns.table import Shown, Table
+from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent
 from pysim.types import Fit as Found
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from pysim.identify.greybox import Problem, Profile, Tried
     from pysim.workflow import Initial
 
 _CLOSE = 0.9  # correlation from which on a pair is printed
+_SAID = ("values", "chosen", "bounds", "priors", "held", "label")  # of a model, that is saved with its fit
 _KEPT, _FMU, _DATA = "fit.json", "model.fmu", "data"  # of a fit that is saved
 
 
@@ -50,7 +49,7 @@ def fit(
         seed: of the draw.
         outputs: columns to compare; all that are measured by default.
         folder: keeps the search, so that one that was stopped goes on from there.
-        progress: see `pysim.nouns.progress.showing`.
+        progress: see `pysim.present.progress.showing`.
     Raises:
         BadInput: nothing free, what does not fit together, or a model that cannot be simulated.
     """
@@ -72,21 +71,12 @@ def fit(
 def _problem(model: Model, dataset: Dataset, initial: Initial, outputs: tuple[str, ...]) -> Problem:
     from pysim.workflow import fit_problem, reference_of
 
-    free = model.free_names
-    if not free:
+    if not model.free_names:
         raise BadInput(f"fit: no parameter of {model.name} is free; name some: model.free('m', d=(20, 60))")
     return fit_problem(
-        model.compiled,
-        [dataset],
-        free=free,
-        bounds={name: pair for name, pair in model.bounds.items() if name in free},
-        priors={name: known for name, known in model.priors.items() if name in free},
-        values=model.values,
-        starts={name: value for name, value in model.usual().items() if name in free},
-        outputs=outputs,
-        reference_hz=reference_of(dataset.responses()),
-        initial=initial,
-    )
+        model.compiled, [dataset], **model.refitted(), values=model.values, starts=model.usual(), outputs=outputs,
+        reference_hz=reference_of(dataset.responses()), initial=initial,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, repr=False)
@@ -149,6 +139,10 @@ class Fit(Shown):
         return tuple(words(note) for note in fit_warnings(self.found))
 
     @property
+    def _alarms(self) -> tuple[str, ...]:
+        return self.warnings
+
+    @property
     def ok(self) -> bool:
         """Whether nothing speaks against it."""
         return not self.warnings
@@ -190,23 +184,32 @@ class Fit(Shown):
 
         return text(self._whole())
 
-    def plot(self, what: str = "log", log: str = "") -> Figure:
+    def plot(self, what: str = "log", log: str = "", *, interactive: bool = False) -> Any:
         """Draw the fit.
 
         Args:
             what: "log" (measured and fitted, and what is left), "parameters" (between their bounds), "correlation".
             log: its name; the one with the largest residual by default.
+            interactive: a Plotly figure in place of Matplotlib's.
         """
         from pysim.nouns.comparison import Comparison
+        from pysim.present import interactive as moving
         from pysim.present.fit import fit_correlation_figure, fit_parameters_figure
 
-        if what == "parameters":
-            return fit_parameters_figure(self.found)
-        if what == "correlation":
-            return fit_correlation_figure(self.found)
-        if what != "log":
+        if what == "log":
+            return Comparison({"fitted": self.found.records}, self.dataset).plot(log, interactive=interactive)
+        if what not in ("parameters", "correlation"):
             raise BadInput(f'plot: {what!r} is not known; write "log", "parameters" or "correlation"')
-        return Comparison({"fitted": self.found.records}, self.dataset).plot(log)
+        if not interactive:
+            return (fit_parameters_figure if what == "parameters" else fit_correlation_figure)(self.found)
+        if what == "correlation":
+            found = moving.correlation_figure([*self.values], self.found.correlation.tolist())
+        else:
+            bounded = [e for e in self.found.estimates if math.isfinite(e.lower) and math.isfinite(e.upper)]
+            found = moving.parameters_figure([
+                {"name": e.name, "lower": e.lower, "upper": e.upper, "after": (e.value, *e.interval)} for e in bounded
+            ])  # fmt: skip
+        return moving.as_plotly(found)
 
     def save(self, folder: Path | str) -> Path:
         """Keep the fit: measurements, FMU, what was asked and what was found. `Fit.load(folder)` gives it back.
@@ -223,22 +226,18 @@ class Fit(Shown):
         write_dataset(place / _DATA, as_text(self.dataset, (".txt", ".csv")), exact=True)
         shutil.copyfile(begun.base.path, place / _FMU)
         asked = {
+            **{name: getattr(begun, name) for name in _SAID},
             "libraries": [str(one) for one in begun.libraries],
-            "values": {**begun.values},
-            "chosen": begun.chosen,
-            "bounds": {**begun.bounds},
-            "priors": {**begun.priors},
-            "held": sorted(begun.held),
             "effects": [one.name for one in begun.effects_in],
-            "label": begun.label,
-            "initial": self.initial if isinstance(self.initial, str | None) else {**self.initial},
+            "initial": self.initial,
             "outputs": self.outputs,
-            "found": {one.name: one.value for one in self.found.estimates},
+            "found": self.values,
             "tolerance": self.found.tolerance,
             "outcome": self.found.outcome.value,
             "search": {name: getattr(self.found, name) for name in ("message", "iterations", "start_cost")},
         }
-        write_file(place / _KEPT, json.dumps(asked, indent=1))
+        plain = json.dumps(asked, indent=1, default=lambda one: {**one} if isinstance(one, Mapping) else sorted(one))
+        write_file(place / _KEPT, plain)
         return place / _KEPT
 
     @classmethod
@@ -256,15 +255,8 @@ class Fit(Shown):
             raise BadInput(f"{place} holds no {_KEPT}; name the folder that fit.save(...) wrote")
         asked = json.loads((place / _KEPT).read_text(encoding="utf-8"))
         plain = Model(read_model(place / _FMU), libraries_of(asked["libraries"]))
-        begun = replace(
-            plain.with_effects(*asked["effects"]) if asked["effects"] else plain,
-            values=asked["values"],
-            chosen=tuple(asked["chosen"]),
-            bounds={name: (low, high) for name, (low, high) in asked["bounds"].items()},
-            priors={name: (mean, sd) for name, (mean, sd) in asked["priors"].items()},
-            held=frozenset(asked["held"]),
-            label=asked["label"],
-        )
+        grown = plain.with_effects(*asked["effects"]) if asked["effects"] else plain
+        begun = replace(grown, **{name: asked[name] for name in _SAID})
         dataset, initial, outputs = dataset_of(place / _DATA), asked["initial"], tuple(asked["outputs"])
         problem = _problem(begun, dataset, initial, outputs)
         found = fit_at(problem, asked["found"], Simulation().as_fine_as(asked["tolerance"]))
@@ -283,8 +275,18 @@ class Fit(Shown):
 
         return Fitted(self.found, (self.dataset,))
 
-    def _lines(self) -> list[str]:
-        """Fit of each signal over all logs, correlations, warnings."""
+    @property
+    def _words(self) -> list[str]:
+        one = self.found
+        return [f"{self.begun.name} fitted to {self.dataset.name}: {one.outcome.value}, {one.iterations} points tried"]
+
+    @property
+    def _tables(self) -> tuple[Table, ...]:
+        return (self.table.of_columns("parameter", "value", "95 % from", "to", "unit", "start", "remark"),)
+
+    @property
+    def _more(self) -> list[str]:
+        """Fit of each signal over all logs, and correlations."""
         from pysim.io import shown_value
         from pysim.present.diagnosis.words import signal_rows
 
@@ -298,20 +300,3 @@ class Fit(Shown):
             for i in range(len(names)) for j in range(i) if abs(matrix[i, j]) > _CLOSE
         ]  # fmt: skip
         return [*lines, *([f"correlations above {_CLOSE}: {', '.join(pairs[:4])}"] if pairs else [])]
-
-    def __repr__(self) -> str:
-        one, warnings = self.found, [f"! {text}" for text in self.warnings]
-        head = f"{self.begun.name} fitted to {self.dataset.name}: {one.outcome.value}, {one.iterations} points tried"
-        said = [head, *self._lines()[:12], *warnings]
-        while len("\n".join(said)) > MOST - 500:
-            said[-1:] = []
-            said[-1] = "! ... see .warnings for all"
-        shown = ("parameter", "value", "95 % from", "to", "unit", "start", "remark")
-        table = Table({name: self.table[name] for name in shown})
-        rows = table.lines(MOST - len("\n".join(said)) - 10)
-        return "\n".join([said[0], *rows, *said[1:]])
-
-    def _repr_html_(self) -> str:
-        head = f"{self.begun.name} fitted to {self.dataset.name}. {' | '.join(self._lines()[:4])}"
-        shown = ("parameter", "value", "95 % from", "to", "unit", "remark")
-        return html_of(head, Table({name: self.table[name] for name in shown}), self.warnings)

@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from pysim.nouns.effect import Effect, effect_folder, own_effect
 from pysim.nouns.model import Model
 from pysim.nouns.table import Shown, Table
-from pysim.types import BadInput, LearnedLaw
+from pysim.types import BadInput, LearnedLaw, law_data
 from pysim.types import Diagnosis as Answer
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 def laws_of(found: Answer, model: Model) -> tuple[Law, ...]:
@@ -77,10 +74,13 @@ class Law(Shown):
 
         return law_sentence(replace(self.found, formula=self.formula))
 
-    def plot(self) -> Figure:
-        """The curve with its band, and where the data are."""
+    def plot(self, *, interactive: bool = False) -> Any:
+        """The curve with its band, and where the data are; a Plotly figure of the curve where `interactive`."""
+        from pysim.present import interactive as moving
         from pysim.present.diagnosis import law_figure
 
+        if interactive:
+            return moving.as_plotly(moving.law_figure(law_data(self.found)))
         return law_figure(self.found, self.samples)
 
     def to_effect(self, name: str, *, description: str = "") -> Effect:

@@ -10,20 +10,34 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 import numpy as np
 
-from pysim.nouns.common import Input, libraries_of, signal_of
+from pysim.io.named_columns import optional_package
+from pysim.io.prepare import logs_called
+from pysim.nouns.common import Input, Measured, dataset_of, libraries_of, signal_of
 from pysim.nouns.run import Run
-from pysim.nouns.table import Shown, Table
-from pysim.types import BadInput, Effect, Experiment, MeasuredRecord, Record, Signal, Variable, conversion
+from pysim.nouns.table import EXTRA, Shown, Table
+from pysim.types import (
+    BadInput,
+    Dataset,
+    Effect,
+    Experiment,
+    MeasuredRecord,
+    Note,
+    Record,
+    RecordFit,
+    Signal,
+    Variable,
+    conversion,
+)
 from pysim.types import Model as Compiled
 from pysim.types._frozen import FrozenMapping
 
 if TYPE_CHECKING:
-    from matplotlib.figure import Figure
-
     from pysim.effects import Slot
-    from pysim.workflow import ModelInside, Variants
+    from pysim.workflow import Initial, ModelInside, Variants
 
 _ROWS = 500  # of a run, where nothing says how many
+_STEPS = 200  # of a slider
+_FINE = 0.01  # of the tolerance that a search has
 _OPENED = 20  # models whose slots are known by their names alone
 _LISTED = 12  # names on one line of what is printed
 
@@ -102,8 +116,12 @@ class Model(Shown):
     label: str = ""
 
     def __post_init__(self) -> None:
-        for name in ("values", "bounds", "priors"):
-            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
+        object.__setattr__(self, "values", FrozenMapping(self.values))
+        for name in ("bounds", "priors"):
+            pairs = {parameter: (low, high) for parameter, (low, high) in getattr(self, name).items()}
+            object.__setattr__(self, name, FrozenMapping(pairs))
+        object.__setattr__(self, "chosen", tuple(self.chosen))
+        object.__setattr__(self, "held", frozenset(self.held))
 
     # --- what it is --------------------------------------------------------------------------------------------------
 
@@ -284,13 +302,19 @@ class Model(Shown):
         wider, found = self._taking(effects)
         return replace(wider, candidates=tuple(dict.fromkeys([*self.candidates, *found])))
 
+    def refitted(self) -> dict[str, Any]:
+        """What a fit may change, with the bounds and the prior knowledge that were given."""
+        free = self.free_names
+        own = {"bounds": self.bounds, "priors": self.priors}
+        return {"free": free, **{k: {n: pair for n, pair in v.items() if n in free} for k, v in own.items()}}
+
     def usual(self) -> dict[str, float]:
         """Where a fit begins with the effects that were added: at usual sizes, as off may be no start."""
         found = {}
         for effect in self.effects_in:
             for parameter in effect.strengths:
                 name = f"{self.places[effect.name]}.{parameter.name}"
-                if name not in self.values and parameter.default == parameter.off:
+                if name in self.free_names and name not in self.values and parameter.default == parameter.off:
                     found[name] = float(min(max(parameter.nominal, parameter.min), parameter.max))
         return found
 
@@ -339,6 +363,57 @@ class Model(Shown):
             times, recorded_of(model, record), drives, self.values, start, rates=model.rate_inputs(drives)
         )
         return Run(simulate(model, experiment, solver=Rodas(), check=check), self.name)
+
+    def beside(self, dataset: Dataset, initial: Initial = None) -> tuple[tuple[RecordFit, ...], tuple[Note, ...]]:
+        """Every log beside the model as it is, with the use that the data set says; and what was assumed."""
+        from pysim.identify.greybox import Simulation
+        from pysim.identify.greybox.comparison import compared
+        from pysim.workflow import fit_problem, reference_of
+
+        uses = [record.use for record in dataset.logs()]
+        all_fit = replace(dataset, records=tuple(replace(record, use="fit") for record in dataset.records))
+        problem = fit_problem(
+            self.compiled, [all_fit], values=self.values, nothing_free=True, initial=initial,
+            reference_hz=reference_of(dataset.responses()),
+        )  # fmt: skip
+        found = compared(problem, np.zeros(0), Simulation().finer(_FINE))  # one run each: no error of it may count
+        if not found.records and not found.responses:
+            raise BadInput(
+                f"{self.name} could not be simulated along any log; try model.simulate(data[...]) to see why"
+            )
+        records = (replace(record, use=uses[record.index]) for record in found.records)
+        return tuple(records), (*problem.notes, *found.notes)
+
+    def explore(self, data: Measured, log: str = "") -> Any:
+        """Sliders for what is free, in a notebook, and one log beside the model at what they say.
+
+        Args:
+            data: what `pysim.load` gives.
+            log: its name; the first one by default.
+        Raises:
+            BadInput: no such log, nothing is free between two bounds, or ipywidgets is not installed.
+        """
+        from pysim.present.overlay import logs_figure
+
+        dataset = dataset_of(data)
+        one = replace(dataset, records=logs_called(dataset, log) if log else dataset.logs()[:1])
+        widgets = optional_package("ipywidgets", "sliders need ipywidgets", EXTRA)
+        rows = [row for row in self.table if row["lowest"] is not None and row["highest"] is not None]
+        if not rows:
+            raise BadInput(f"explore: nothing of {self.name} is free between bounds; write model.free('m', d=(20, 60))")
+        sliders = {
+            row["free"]: widgets.FloatSlider(
+                value=row["value"], min=row["lowest"], max=row["highest"], description=row["free"],
+                step=(row["highest"] - row["lowest"]) / _STEPS, readout_format=".4g", continuous_update=False,
+            )
+            for row in rows
+        }  # fmt: skip
+
+        def shown(**values: float) -> Any:
+            records, _ = self.set(**values).beside(one)
+            return logs_figure({self.shown: records[0]})
+
+        return widgets.interactive(shown, {"auto_display": True}, **sliders)
 
     def export(self, folder: Path | str, *, fmi: int = 2, platforms: str | Sequence[str] = "host") -> dict[str, Path]:
         """Write the model with its values: class, FMU, and parameters.toml; name -> path.
@@ -405,12 +480,8 @@ class Model(Shown):
     @property
     def table(self) -> Table:
         """What a fit may change: value and bounds."""
-        model = self.compiled
-        rows = []
-        for name in self.free_names:
-            v = model[name]
-            low, high = self.bounds.get(name, (v.min, v.max))
-            rows.append((name, self.values.get(name, v.start), low, high, _unit(v)))
+        own = [self.parameters.row(name) for name in self.free_names]
+        rows = [tuple(row[column] for column in ("name", "value", "min", "max", "unit")) for row in own]
         return Table.of(("free", "value", "lowest", "highest", "unit"), rows, key="free")
 
     @property
@@ -429,8 +500,13 @@ class Model(Shown):
             lines.append("slots: none, as its class is in no library")
         return lines
 
-    def plot(self) -> Figure:
-        """A sketch: inputs, outputs, what is free, and slots with the effects in them."""
+    def plot(self, *, interactive: bool = False) -> Any:
+        """A sketch: inputs, outputs, what is free, and slots with the effects in them.
+
+        Args:
+            interactive: a Plotly figure in place of Matplotlib's.
+        """
+        from pysim.present import interactive as moving
         from pysim.present.model import model_figure
 
         inputs, outputs = ([f"{v.name} [{v.unit}]" for v in self.compiled.variables if v.causality == causality]
@@ -439,6 +515,8 @@ class Model(Shown):
         inside = [f"{len(self.compiled.abilities.states)} states", *(free[:_LISTED] or ["nothing is free"])]
         filled = {slot: [e.name for e in self.effects_in if e.slot == slot] for slot in self.slots["name"]}
         slots = ["\n".join([name, *(own or ["empty"])]) for name, own in filled.items()]
+        if interactive:
+            return moving.as_plotly(moving.model_figure(self.name, inputs, outputs, inside, slots))
         return model_figure(self.name, inputs, outputs, inside, slots)
 
     def to_dataframe(self) -> Any:

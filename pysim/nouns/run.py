@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import Outcome, Record
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, repr=False)
@@ -55,11 +52,12 @@ class Run(Shown):
         heads = [name if unit == "1" else f"{name} [{unit}]" for name, unit in named]
         return pandas().DataFrame(one.values, index=index, columns=heads)
 
-    def plot(self) -> Figure:
-        """All columns over time, one panel a unit."""
+    def plot(self, *, interactive: bool = False) -> Any:
+        """All columns over time, one panel a unit; a Plotly figure where `interactive`, one panel a column."""
         from pysim.present.cosim import cosim_figure
+        from pysim.present.interactive import as_plotly, lines_figure
 
-        return cosim_figure(self.record)
+        return as_plotly(lines_figure({self.name: self.record})) if interactive else cosim_figure(self.record)
 
     def save(self, file: Path | str) -> Path:
         """Write it as .csv or .npz, by the name of the file."""

@@ -14,6 +14,9 @@ from pysim.types._frozen import FrozenMapping
 
 MOST = 1900  # characters of what a noun prints
 _WIDEST = 44  # characters of a cell
+_ROOM = 500  # characters that the tables have at least
+_FIRST = 4  # lines behind the tables that HTML shows too
+EXTRA = '"hydraulic-test-bench[notebook]"'  # what pip calls all that notebooks may want
 
 
 @dataclass(frozen=True)
@@ -53,6 +56,10 @@ class Table:
         if name not in self.columns:
             raise BadInput(f"the table has no column {name!r}; it has {', '.join(self.columns)}")
         return self.columns[name]
+
+    def of_columns(self, *names: str) -> Table:
+        """The same with these columns alone."""
+        return Table({name: self[name] for name in names})
 
     def row(self, key: str) -> dict[str, Any]:
         """The first row of that name."""
@@ -105,7 +112,7 @@ class Table:
 
 
 class Shown:
-    """How a noun is shown: some words, warnings, and a table with as many rows as there is room for."""
+    """How a noun is shown: words, tables with as many rows as there is room for, more words, and warnings."""
 
     @property
     def table(self) -> Table:
@@ -114,33 +121,48 @@ class Shown:
 
     @property
     def _words(self) -> list[str]:
-        """Lines ahead of the table."""
+        """Lines ahead of the tables."""
         return []
 
     @property
-    def _shown(self) -> Table:
-        """Of the table what is printed."""
-        return self.table
+    def _tables(self) -> tuple[Table, ...]:
+        """What is printed of its tables."""
+        return (self.table,)
+
+    @property
+    def _more(self) -> list[str]:
+        """Lines behind the tables."""
+        return []
+
+    @property
+    def _alarms(self) -> tuple[str, ...]:
+        """Why not to trust it, in sentences."""
+        return ()
 
     def to_dataframe(self) -> Any:
         """The table, as a pandas DataFrame."""
         return self.table.to_dataframe()
 
+    def to_xarray(self) -> Any:
+        """What `to_dataframe` gives, as an xarray.Dataset."""
+        optional_package("xarray", "an xarray.Dataset needs xarray", EXTRA)
+        return self.to_dataframe().to_xarray()
+
     def __repr__(self) -> str:
-        words = "\n".join(self._words)
-        return "\n".join([*([words] if words else []), *self._shown.lines(MOST - len(words) - 10)])
+        said, tables = [*self._more, *(f"! {text}" for text in self._alarms)], [t for t in self._tables if len(t)]
+        while len("\n".join([*self._words, *said])) > MOST - _ROOM and said:
+            said = [*said[:-2], "... see .warnings for all"] if len(said) > 2 else []
+        room = MOST - len("\n".join([*self._words, *said])) - 10
+        rows = [line for table in tables for line in table.lines(room // len(tables))]
+        return "\n".join([*self._words, *rows, *said])
 
     def _repr_html_(self) -> str:
-        return html_of(" | ".join(self._words), self._shown)
-
-
-def html_of(text: str, table: Table | None = None, warnings: Sequence[str] = ()) -> str:
-    """Some words, a table, and warnings in red, in no more characters than a noun may take."""
-    said = "".join(f'<p style="color:#b00020">{escape(one)}</p>' for one in warnings)
-    said = f"<p>{escape(text)}</p>{said}"
-    if len(said) > MOST // 2:
-        said = f"{said[: MOST // 2].rpartition('<p')[0]}<p>...</p>" if "<p" in said[3 : MOST // 2] else "<p>...</p>"
-    return said + (table.html(MOST - len(said)) if table is not None else "")
+        words = " | ".join([*self._words, *self._more[:_FIRST]])
+        said = "".join(f'<p style="color:#b00020">{escape(one)}</p>' for one in self._alarms)
+        said = f"<p>{escape(words)}</p>{said}"
+        if len(said) > MOST // 2:
+            said = f"{said[: MOST // 2].rpartition('<p')[0]}<p>...</p>" if "<p" in said[3 : MOST // 2] else "<p>...</p>"
+        return said + self._tables[0].html(MOST - len(said))
 
 
 def pandas() -> Any:

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import Any
 
 from pysim.nouns.table import Shown, Table
 from pysim.types.answer import Failure
-
-if TYPE_CHECKING:
-    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, repr=False)
@@ -28,8 +25,9 @@ class Where(Shown):
         rows = [(one.record, one.signal, one.region, one.error) for one in self.failures]
         return Table.of(("log", "signal", "region", "residual over noise"), rows)
 
-    def plot(self) -> Figure:
-        """The worst of them as bars."""
+    def plot(self, *, interactive: bool = False) -> Any:
+        """The worst of them as bars; a Plotly figure where `interactive`."""
+        from pysim.present import interactive as moving
         from pysim.present.overlay import regions_figure
 
-        return regions_figure(self.failures)
+        return moving.as_plotly(moving.regions_figure(self.failures)) if interactive else regions_figure(self.failures)

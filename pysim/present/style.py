@@ -5,8 +5,10 @@ Matplotlib is imported when a figure is made, so that a file that shows a method
 
 from __future__ import annotations
 
+import io
 import math
 from collections.abc import Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -28,13 +30,23 @@ TEXT = 9.0
 SMALL = 8.0
 
 _LEGEND_ROW = 0.19  # in
+_SCREEN_DPI = 100.0  # of a figure in a notebook
 
 
 def new_figure(width: float, height: float) -> Figure:
     """An empty white figure, inches, that fits its own parts; no pyplot, so no global state."""
     from matplotlib.figure import Figure
 
-    return Figure(figsize=(width, height), layout="constrained", facecolor="white")
+    figure = Figure(figsize=(width, height), layout="constrained", facecolor="white")
+    figure._repr_png_ = partial(_png, figure)  # type: ignore[attr-defined]
+    return figure
+
+
+def _png(figure: Figure) -> bytes:
+    """What a notebook shows, which knows figures of pyplot alone by itself."""
+    data = io.BytesIO()
+    figure.savefig(data, format="png", dpi=_SCREEN_DPI)
+    return data.getvalue()
 
 
 def panels(width: float, height: float, rows: int = 1, columns: int = 1, **how: Any) -> tuple[Figure, NDArray[Any]]:

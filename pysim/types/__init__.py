@@ -16,7 +16,7 @@ from pysim.types.answer import (
     Rival,
     Verdict,
 )
-from pysim.types.answer_json import answer_data, step_data
+from pysim.types.answer_json import answer_data, law_data, read_step, step_data
 from pysim.types.best_linear_approximation import BestLinearApproximation, Distortion, Level, MultisineTest
 from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
@@ -109,7 +109,9 @@ __all__ = [
     "answer_data",
     "conversion",
     "in_si",
+    "law_data",
     "printable",
+    "read_step",
     "sampling",
     "setting",
     "step_data",

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from typing import Any
 
 from pysim.types.answer import Diagnosis, ErrorStep, Failure, FoundEffect, LearnedLaw, Left, NextTest, Rival
 from pysim.types.json_number import json_data
@@ -36,7 +37,7 @@ def answer_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None) ->
             e.name: {"value": e.value, "interval": e.interval, "unit": e.unit, "at": e.at} for e in diagnosis.estimates
         },
         "where": [_failure(one) for one in diagnosis.failures],
-        "missing": [_missing(law) for law in diagnosis.laws],
+        "missing": [law_data(law) for law in diagnosis.laws],
         "learned": [_learned(law) for law in diagnosis.learned],
         "detectable": [{"effect": o.effect, "sizes": o.sizes, "unit": o.units} for o in diagnosis.detectable],
         "next_test": _next_test(diagnosis.next_test),
@@ -67,6 +68,12 @@ def step_data(step: ErrorStep, *, used_to_choose: bool = False) -> Json:
             "not_simulated": step.not_simulated,
         }
     )
+
+
+def read_step(data: Mapping[str, Any]) -> ErrorStep:
+    """The errors of a step that `step_data` wrote; an earlier version knew no logs that nobody looked at."""
+    known = {name: data[name] for name in ("step", "fit", "validate", "criteria", "passes")}
+    return ErrorStep(**known, test=data.get("test"), cost=data.get("cost", math.nan))
 
 
 def _fit_percent(step: ErrorStep) -> Json:
@@ -120,7 +127,7 @@ def _failure(one: Failure) -> Json:
     return {"record": one.record, "signal": one.signal, "region": one.region, "error": one.error}
 
 
-def _missing(law: LearnedLaw) -> Json:
+def law_data(law: LearnedLaw) -> Json:
     """A learned law as a table."""
     low, high = law.band
     shape: Json = {"argument": law.knots, "value": law.coefficients}

@@ -47,8 +47,8 @@ class Record:
         BadInput: shapes that do not match, or times that do not increase.
     """
 
-    time: Array
-    values: Array
+    time: Array = field(repr=False)
+    values: Array = field(repr=False)
     names: tuple[str, ...]
     units: tuple[str, ...]
     outcome: Outcome = Outcome.DONE

@@ -7,10 +7,11 @@ from typing import Any
 
 from pysim.app.answers import Answer, history
 from pysim.app.desk import Desk
-from pysim.app.figures import CRITERIA, criteria_figure, error_figure, parameters_figure
 from pysim.app.pages.common import attempt, busy, ended, nothing, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, note, text
 from pysim.present.diagnosis.words import step_name
+from pysim.present.interactive import CRITERIA, criteria_figure, error_figure, parameters_figure
+from pysim.types import read_step
 
 
 def add_page(desk: Desk) -> None:
@@ -67,7 +68,10 @@ class _Error:
             return
         self._place.set_visibility(True)
         told = "; ".join(f"{s['step']} {s['fit'] or s['validate'] or 0:.2f}" for s in steps) or doing
-        figure, label = error_figure(steps, doing=doing), f"Error over noise, step by step: {told}"
+        figure, label = (
+            error_figure([read_step(s) for s in steps], doing=doing),
+            f"Error over noise, step by step: {told}",
+        )
         if self._chart is None:
             with self._place:
                 self._chart = Chart(figure, label, height=350)

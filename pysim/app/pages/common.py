@@ -50,6 +50,8 @@ def busy(desk: Desk) -> str:
 
 def ended(desk: Desk) -> None:
     """What became of the last piece of work, where that needs words; how to go on."""
+    for work in desk.answers.unreadable:
+        note(f'"{work.title}" was done by another version, and its result cannot be read here; run it again.', "bad")
     job = desk.last if desk.last is not None and desk.last.state in (FAILED, STOPPED) else None
     job = job or (desk.unfinished() if desk.runner.running is None else None)
     if job is None or desk.runner.running is not None:

@@ -12,12 +12,12 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.error_map import ErrorMap, error_maps
-from pysim.app.figures import bode_figure, map_figure
 from pysim.app.pages.common import busy, ended, nothing, segments, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, quantity, text
 from pysim.app.records import MOST, compared_overlay, measured_overlay, stage_keys
 from pysim.app.working_point import command_unit, response_unit, working_point
 from pysim.present.diagnosis.words import step_name
+from pysim.present.interactive import bode_figure, map_figure
 from pysim.present.notes import USES
 from pysim.types import Dataset, MeasuredRecord, Record
 

@@ -6,10 +6,10 @@ from collections.abc import Mapping
 from typing import Any
 
 from pysim.app.desk import Desk
-from pysim.app.figures import law_figure
 from pysim.app.pages.candidates import effect_row
 from pysim.app.pages.common import busy, ended, nothing, start
 from pysim.app.parts import Chart, Drawing, box, button, card, live, note, text
+from pysim.present.interactive import law_figure
 
 _Found = Mapping[str, Mapping[str, Any]]
 

@@ -20,8 +20,8 @@ def run(given: Given) -> int:
     from pysim.bench import read_plan, run_plan, truth_data
     from pysim.cli.options import assigned, read_parameters
     from pysim.cli.outputs import prepare_file, prepare_folder
-    from pysim.cli.progress import announce_compilation
     from pysim.io import write_dataset, write_file
+    from pysim.present.progress import announce_compilation
 
     plan, model = read_plan(given.plan), given.model
     parameters, strength = read_parameters(given, model), assigned(given.strength, "--strength", "SI units")

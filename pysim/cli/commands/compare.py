@@ -56,9 +56,9 @@ def _logs(given: Given) -> Diagnosed:
 
 def _responses(given: Given, dataset: Dataset) -> Comparison:
     from pysim.cli.options import read_parameters
-    from pysim.cli.progress import announce_compilation
     from pysim.diagnosis import compare_responses
     from pysim.io import in_model_units
+    from pysim.present.progress import announce_compilation
     from pysim.workflow import reference_of
 
     reference_hz = reference_of(dataset.responses(), given.reference_hz)

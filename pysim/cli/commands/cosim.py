@@ -61,8 +61,8 @@ def _export(given: Given, system: SystemFile) -> int:
 
 def _simulated(given: Given, system: SystemFile) -> tuple[Record, float]:
     """The record, and the seconds that it took."""
-    from pysim.cli.progress import announce_compilation
     from pysim.cosim import cosimulate
+    from pysim.present.progress import announce_compilation
     from pysim.types import BadInput
 
     announce_compilation()

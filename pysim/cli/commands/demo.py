@@ -30,9 +30,9 @@ def run(given: Given) -> int:
     from signal import SIG_DFL, SIGINT, signal
 
     from pysim.cli.outputs import prepare_folder
-    from pysim.cli.progress import Working
     from pysim.io import read_dataset, write_file
     from pysim.present.comparison import Comparisons, comparison_text, data, page
+    from pysim.present.progress import Working
     from pysim.simulate import build_kernel
     from validation.pump import CLASSES
     from validation.thesis import FREQUENCIES_HZ, write_dataset
@@ -82,7 +82,7 @@ def draw_picture(comparisons: Sequence[Comparison], folder: Path, name: str) -> 
 
 def _build(label: str, folder: Path) -> Model:
     """One parameter set's FMU."""
-    from pysim.cli.progress import Working
+    from pysim.present.progress import Working
     from validation.pump import CLASSES, pump_model
 
     with Working(f"Building {CLASSES[label]}"):
@@ -91,8 +91,8 @@ def _build(label: str, folder: Path) -> Model:
 
 def _compare(label: str, model: Model, dataset: Dataset) -> Comparison:
     """Run all tests through one model."""
-    from pysim.cli.progress import ProgressBar
     from pysim.diagnosis import compare_responses
+    from pysim.present.progress import ProgressBar
     from validation.pump import SOURCES
 
     with ProgressBar(f"{label} set") as progress:

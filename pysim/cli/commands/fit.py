@@ -34,7 +34,6 @@ if TYPE_CHECKING:
 
 def run(given: Given) -> Fitted:
     """The estimates, with exact intervals where these were asked for."""
-    from pysim.cli.progress import Working, announce_compilation
     from pysim.identify.greybox import (
         OBJECTIVES,
         Effort,
@@ -46,6 +45,7 @@ def run(given: Given) -> Fitted:
     )
     from pysim.io import in_model_units
     from pysim.present.fit import Fitted
+    from pysim.present.progress import Working, announce_compilation
     from pysim.workflow import fitted
 
     model = given.model

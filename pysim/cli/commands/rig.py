@@ -69,9 +69,9 @@ def _run(
     *,
     crane: bool = False,
 ) -> Record:
-    from pysim.cli.progress import Working, announce_compilation
     from pysim.cosim import cosimulate
     from pysim.cosim.members import Fmu
+    from pysim.present.progress import Working, announce_compilation
     from pysim.rig import rig_member, rig_system
     from pysim.workflow import model_of
 

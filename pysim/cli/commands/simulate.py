@@ -25,7 +25,7 @@ def run(given: Given) -> int:
     """Simulate; NO when the run stops early, with what was reached written all the same."""
     from pysim.cli._inputs import input_files
     from pysim.cli.outputs import prepare_file
-    from pysim.cli.progress import simulating
+    from pysim.present.progress import simulating
     from pysim.simulate import Rk45, Rodas, simulate
     from pysim.types import Outcome
 

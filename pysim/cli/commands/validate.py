@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -10,7 +9,6 @@ from pysim.cli.command import DONE, NO, Command, Given
 from pysim.cli.option import Option, switch
 
 if TYPE_CHECKING:
-    from pysim.cli.progress import ProgressBar
     from validation.findings import Finding
     from validation.results import CaseResult
 
@@ -52,28 +50,22 @@ def run(given: Given) -> int:
 
 
 class _Show:
-    """What is seen while cases run: findings as they come, and a bar of the cases done."""
+    """What is seen while cases run: findings as they come, and how many cases are done."""
 
     def __init__(self, total: int) -> None:
-        from pysim.cli.progress import ProgressBar
-
-        self._bar: ProgressBar = ProgressBar("validate")
         self._done, self._total = 0, total
 
     def __call__(self, name: str, finding: Finding | None) -> None:
-        from pysim.cli.terminal import draws_over
         from validation.registry import CASES
 
-        clear = "\r\033[K" if draws_over(sys.stderr) else ""
-        print(clear, end="", file=sys.stderr, flush=True)
         print(f"{name}: {CASES[name].about}" if finding is None else f"  {finding}", flush=True)
 
     def finished(self, result: CaseResult) -> None:
         """One more case is done."""
         self._done += 1
         end = f"FAILED, {result.error}" if result.error else {"fails": "FAILED"}.get(result.verdict, result.verdict)
-        print(f"  {end} in {result.seconds:.1f} s, {result.cpu:.1f} s of CPU", flush=True)
-        self._bar(self._done, self._total)
+        took = f"{result.seconds:.1f} s, {result.cpu:.1f} s of CPU"
+        print(f"  {end} in {took} ({self._done} of {self._total})", flush=True)
 
 
 def _checkout() -> Path:

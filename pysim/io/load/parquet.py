@@ -3,36 +3,45 @@
 from __future__ import annotations
 
 from pathlib import Path
+from types import ModuleType
 from typing import Any
 
-from pysim.io.limits import LIMITS
+import numpy as np
+from numpy.typing import NDArray
+
+from pysim.io.limits import LIMITS, ReadLimits
 from pysim.io.load.foreign_units import EXTRA
 from pysim.io.load.frame import arrow_column
 from pysim.io.load.table import RawTable
-from pysim.io.named_columns import optional_package
-from pysim.io.parquet_table import refuse_large
-from pysim.types import BadInput
+from pysim.io.parquet_table import cells_of, opened
 
 
-def read_parquet_log(path: Path) -> tuple[RawTable, ...]:
+def read_parquet_log(path: Path, limits: ReadLimits = LIMITS) -> tuple[RawTable, ...]:
     """Its columns of numbers, moments and texts; nested ones are left out.
 
     Raises:
         BadInput: the package is missing, no Parquet file, or more in it than is read.
     """
-    need = f"{path} is a Parquet file"
-    arrow, parquet = (optional_package(module, need, f'"{EXTRA}"') for module in ("pyarrow", "pyarrow.parquet"))
-    try:
-        with parquet.ParquetFile(path) as file:
-            fields = [own for own in file.schema_arrow if not arrow.types.is_nested(own.type)]
-            names = tuple(own.name for own in fields)
-            refuse_large(path, file.metadata, names, "load", LIMITS)
-            table = file.read(columns=list(names), use_threads=False)
-    except (OSError, arrow.ArrowException) as error:
-        raise BadInput(f"cannot read {path} as Parquet ({error}); correct the name or export it again") from error
-    units = {own.name: unit for own in fields if (unit := _unit(own.metadata))}
-    cells = tuple(arrow_column(table.column(k)) for k in range(len(names)))
+    with opened(path, _flat, "load", limits, f'"{EXTRA}"') as (file, names):
+        table = file.read(columns=list(names), use_threads=False)
+        cells = tuple(_cells(table.column(name)) for name in names)
+    units = {name: unit for name in names if (unit := _unit(table.schema.field(name).metadata))}
     return (RawTable(str(path), path.name, names, cells, units),)
+
+
+def _flat(arrow: ModuleType, schema: Any) -> tuple[tuple[str, ...], list[str]]:
+    """Columns that are not nested, and those of texts."""
+    flat = [own for own in schema if not arrow.types.is_nested(own.type)]
+    texts = [own.name for own in flat if arrow.types.is_string(own.type) or arrow.types.is_large_string(own.type)]
+    return tuple(own.name for own in flat), texts
+
+
+def _cells(column: Any) -> NDArray[Any]:
+    """Of all chunks; of texts those that are the same are one object."""
+    chunks = [cells_of(chunk) if hasattr(chunk, "dictionary") else None for chunk in column.chunks]
+    if not chunks or any(chunk is None for chunk in chunks):
+        return arrow_column(column)
+    return np.concatenate([chunk for chunk in chunks if chunk is not None])
 
 
 def _unit(metadata: Any) -> str:

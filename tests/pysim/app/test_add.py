@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 
+from pysim.app.project import Project
 from tests.pysim.app.browser import Show, Shown, Tab, artefacts
 from tests.toy import TEXT
 
@@ -93,6 +94,19 @@ def test_what_a_stopped_fit_had_found_stays_until_it_is_found_again(tab: Tab, pr
     tell(project, "prior", 55.5)
     drawn(tab, "55.5")
     drawn(tab, "0.97")
+
+
+def test_a_result_of_another_version_says_what_to_do(shown: Shown, show: Show, project: Path) -> None:
+    folder = project / "results" / "diagnose"
+    folder.mkdir(parents=True)
+    work = {"name": "diagnose", "title": "Find what is missing", "words": ["diagnose"], "effects": []}
+    head = {"work": work, "state": "done", "begun": 1.0, "ended": 2.0, "message": ""}
+    (folder / "job.json").write_text(json.dumps({**head, "fingerprint": Project.at(project).fingerprint()}))
+    (folder / "answer.json").write_text('{"verdict": "none", "ledger": []}')
+    tab = Tab(shown, show(project, idle=True), artefacts())
+    tab.go("Add")
+    tab.see("its result cannot be read here; run it again")
+    assert tab.errors == []
 
 
 def test_a_figure_follows_the_look_and_the_window(tab: Tab) -> None:

@@ -61,7 +61,8 @@ def answered(folder: Path, stages: list[dict[str, Any]]) -> None:
     np.savez(archive, about=about, t=time, m=10 + 0 * time[:, None], s=10 + 0 * time[:, None])
     (folder / "results/compare/records.npz").write_bytes(archive.getvalue())
     error = [{"step": s["step"], "fit": 2.0, "validate": None, "criteria": {}, "passes": False} for s in stages]
-    answer = {"added": [], "error": error, "ranking": [], "missing": [], "confusable": [], "notes": [], "reason": ""}
+    empty: dict[str, Any] = {key: [] for key in ("added", "ranking", "missing", "confusable", "notes")}
+    answer = {**empty, "error": error, "reason": "", "verdict": "none", "next_test": None, "files": {}}
     (folder / "results/compare/answer.json").write_text(json.dumps(answer))
     job = {"work": {"name": "compare", "title": "Compare", "words": ["compare"], "effects": []}, "state": "done"}
     job |= {"begun": 1.0, "ended": 2.0, "fingerprint": Project(folder).fingerprint(), "message": ""}

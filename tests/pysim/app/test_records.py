@@ -8,11 +8,12 @@ import pytest
 
 from pysim import present
 from pysim.app.answers import Answers, history
-from pysim.app.figures import error_figure, parameters_figure
 from pysim.app.jobs import ANSWER, RECORDS
 from pysim.app.project import Project
 from pysim.app.records import compared_overlay, measured_overlay, stage_keys
 from pysim.io import write_stages
+from pysim.present.interactive import error_figure, parameters_figure
+from pysim.types import read_step
 from tests.pysim.diagnosis_answer import dataset, found_offset
 
 
@@ -39,6 +40,23 @@ def test_answers_are_those_of_the_data_and_model_as_they_are(project: Project) -
     assert [step["fit"] for step in history(answer, answer.added)] == [8.1, 4.2, 1.0]
     project.change(model="Another")
     assert Answers.of(project).all == ()
+
+
+@pytest.mark.parametrize("way", ["an older form of the records", "an older form of the answer", "cut short"])
+def test_a_result_of_another_version_is_named_and_not_read(project: Project, way: str) -> None:
+    folder = project.results("diagnose")
+    if way == "an older form of the records":
+        about = np.frombuffer(json.dumps({"form": 1, "stages": []}).encode(), dtype=np.uint8)
+        np.savez(folder / RECORDS, about=about)
+    elif way == "an older form of the answer":
+        (folder / ANSWER).write_text(json.dumps({"verdict": "none", "ledger": []}))
+    else:
+        (folder / ANSWER).write_text('{"verdict": ')
+    found = Answers.of(project)
+    assert found.all == ()
+    assert [work.title for work in found.unreadable] == ["Find"]
+    project.change(model="Another")  # what is of other data is none of today's business
+    assert Answers.of(project).unreadable == ()
 
 
 def test_lines_are_the_samples_and_the_residual_over_noise(project: Project) -> None:
@@ -70,7 +88,7 @@ def test_before_anything_was_compared_the_log_alone_is_shown() -> None:
 
 def test_the_picture_of_the_error_shows_every_error_and_what_is_being_worked_on() -> None:
     steps = present.data(found_offset())["error"]
-    figure = error_figure(steps, doing="<b>screening</b>")  # type: ignore[arg-type]
+    figure = error_figure([read_step(step) for step in steps], doing="<b>screening</b>")  # type: ignore[attr-defined]
     told = [note["text"] for note in figure["layout"]["annotations"]]
     assert told[:6] == ["<b>8.10</b>", "<b>8.00</b>", "<b>4.20</b>", "<b>3.20</b>", "<b>1.01</b>", "<b>1.00</b>"]
     assert figure["layout"]["xaxis"]["ticktext"][-1] == "<i>&lt;b&gt;screening&lt;/b&gt; …</i>"

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli.live import Live
 from pysim.cli.outputs import CHECKPOINT, MARKER
 from pysim.diagnosis import error_history
 from pysim.identify.greybox.comparison import Compared
 from pysim.io import read_model, write_dataset
 from pysim.present import diagnosis
+from pysim.present.progress import Unfolding
 from pysim.types import FrequencyResponse, MeasuredRecord, Note, NoteCode, ProgressEvent, SineTest
 from tests.pysim.cli.ran import Ran, refused
 from tests.pysim.diagnosis_answer import found_offset
@@ -29,11 +29,11 @@ def unpictured(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(diagnosis, "figures", lambda result: iter(()))
 
 
-def stopped_at(step: str) -> Callable[[Live, ProgressEvent], None]:
+def stopped_at(step: str) -> Callable[[Unfolding, ProgressEvent], None]:
     """In place of what shows progress: Ctrl-C once a step of the error history is known."""
-    tell = Live.__call__
+    tell = Unfolding.__call__
 
-    def stop(self: Live, event: ProgressEvent) -> None:
+    def stop(self: Unfolding, event: ProgressEvent) -> None:
         tell(self, event)
         if event.step is not None and event.step.step == step:
             raise KeyboardInterrupt
@@ -47,7 +47,7 @@ def test_a_command_that_was_stopped_goes_on_with_the_same_answer(
     output = tmp_path / "out"
     words = [*compared.words, "--output", str(output)]
     with monkeypatch.context() as patch:
-        patch.setattr(Live, "__call__", stopped_at("prior"))
+        patch.setattr(Unfolding, "__call__", stopped_at("prior"))
         assert main(words) == 2
     assert "the same command goes on" in capsys.readouterr().err
     assert [path.name for path in output.iterdir()] == [CHECKPOINT]

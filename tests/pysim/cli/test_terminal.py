@@ -6,26 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli import main, terminal
-from pysim.cli.terminal import draws_over, print_everything
-
-
-class Terminal(io.StringIO):
-    def isatty(self) -> bool:
-        return True
-
-
-def test_a_file_is_no_terminal(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert not draws_over(io.StringIO())
-    monkeypatch.setattr(sys, "platform", "linux")
-    assert draws_over(Terminal())
-
-
-@pytest.mark.parametrize("can", [True, False])
-def test_windows_is_asked(monkeypatch: pytest.MonkeyPatch, can: bool) -> None:
-    monkeypatch.setattr(sys, "platform", "win32")
-    monkeypatch.setattr(terminal, "_windows_draws", lambda stream: can)
-    assert draws_over(Terminal()) is can
+from pysim.cli import main
+from pysim.cli.terminal import print_everything
 
 
 def test_letters_that_an_encoding_lacks_are_replaced(monkeypatch: pytest.MonkeyPatch) -> None:

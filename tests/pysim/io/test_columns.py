@@ -15,6 +15,7 @@ from pyarrow import parquet
 from pysim.io import read_dataset
 from pysim.io.columns import read_columns
 from pysim.io.limits import ReadLimits
+from pysim.io.load.parquet import read_parquet_log
 from pysim.io.parquet_table import read_parquet
 from pysim.io.tdms_table import read_tdms
 from pysim.types import BadInput
@@ -272,6 +273,8 @@ def test_a_directory_that_lies_about_its_size_is_found_out_in_little_memory(tmp_
     before = resource.getrlimit(resource.RLIMIT_AS), pa.default_memory_pool().backend_name
     with pytest.raises(BadInput, match=r"liar\.parquet takes more memory than .* call for; export it again"):
         read_parquet(path, NAMES, "test", ReadLimits(memory=60_000_000))
+    with pytest.raises(BadInput, match=r"load: .*liar\.parquet takes more memory than .* call for; export it again"):
+        read_parquet_log(path, ReadLimits(memory=60_000_000))
     assert (resource.getrlimit(resource.RLIMIT_AS), pa.default_memory_pool().backend_name) == before
     assert read_parquet(as_parquet(path, time=TIME, speed=SPEED), NAMES, "test").values.shape == (3, 2)
 

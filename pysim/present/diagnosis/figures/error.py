@@ -10,6 +10,7 @@ import numpy as np
 
 from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.present import style
+from pysim.present.diagnosis.levels import levels
 from pysim.present.diagnosis.words import candidates_shown, errors, size_text, step_name
 from pysim.present.notes import USES
 from pysim.types import BadInput, Criterion, Diagnosis, ErrorStep, Rival
@@ -19,7 +20,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _CRITERIA = {c.symbol: c for c in (*FREQUENCY_CRITERIA, *TIME_CRITERIA)}
-_TICKS = tuple(digit * 10.0**power for power in range(-2, 7) for digit in (1, 2, 5))
 _PASS, _FAIL = "#14663a", "#b3261e"
 _ROWS = 14  # candidates shown
 
@@ -51,16 +51,15 @@ def error_figure(steps: Sequence[ErrorStep]) -> Figure:
 def _levels(figure: Figure, axes: Axes, steps: Sequence[ErrorStep]) -> None:
     axes.grid(False, axis="x")
     axes.set_yscale("log")
-    lines = {words: [errors(step).get(words) for step in steps] for words in USES.values()}
-    known = [v for values in lines.values() for v in values if v is not None]
-    low, high = min([0.72, *(0.72 * v for v in known)]), max([1.6, *(1.7 * v for v in known)])
-    axes.set_ylim(low, high)
-    style.plain_numbers(axes.yaxis, [t for t in _TICKS if low <= t <= high])
-    axes.axhspan(low, 1.0, color=style.BAND, alpha=0.6, linewidth=0)
+    found = levels(steps)
+    axes.set_ylim(found.low, found.high)
+    style.plain_numbers(axes.yaxis, found.ticks)
+    axes.axhspan(found.low, 1.0, color=style.BAND, alpha=0.6, linewidth=0)
     axes.axhline(1.0, color=style.LIMIT, linewidth=1.0)
     handles, names = [], []
-    for k, (name, values) in enumerate(lines.items()):
-        if all(v is None for v in values):
+    for k, name in enumerate(USES.values()):
+        values = found.lines.get(name)
+        if values is None:
             continue
         height = np.array([math.nan if v is None else v for v in values])
         edges = np.arange(-0.5, len(steps))

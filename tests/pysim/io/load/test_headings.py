@@ -87,5 +87,5 @@ def test_a_missing_package_is_named(name: str, monkeypatch: pytest.MonkeyPatch, 
     monkeypatch.setattr("pysim.io.named_columns.import_module", absent)
     path = Path(str(tmp_path)) / name
     path.write_bytes(b"MATLAB 7.3".ljust(512) + b"\x89HDF\r\n\x1a\n")
-    with pytest.raises(BadInput, match=r'the package to read it is missing; run: pip install "?hydraulic-test-bench'):
+    with pytest.raises(BadInput, match=r'the package for it is missing; run: pip install "?hydraulic-test-bench'):
         READERS[path.suffix](path)

@@ -1,6 +1,6 @@
 """Parameters on a scale between their bounds."""
 
-from pysim.app.figures import parameters_figure
+from pysim.present.interactive import parameters_figure
 
 
 def test_parameters_stand_between_their_bounds() -> None:

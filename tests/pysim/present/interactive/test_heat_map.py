@@ -1,6 +1,6 @@
 """The map of the error."""
 
-from pysim.app.figures import map_figure, plain
+from pysim.present.interactive import map_figure, plain
 
 
 def test_a_map_writes_its_numbers_into_the_cells_and_names_as_they_are() -> None:

@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from pysim.app.figures.look import LOOKS, Figure, axis, figure, plain
 from pysim.identify import FREQUENCY_CRITERIA, THESIS_REFERENCE_HZ
+from pysim.present.interactive.look import LOOKS, Figure, axis, figure, plain
 
 _NEAR = 1e-3  # of the reference, by which the frequency of a log may be off, as in pysim.identify.greybox.stepped_sines
 _NUMBERS = 6  # wanted along the frequencies; of two decades and more Plotly then takes 1, 2 and 5

@@ -2,8 +2,8 @@
 
 import pytest
 
-from pysim.app.figures import criteria_figure
-from tests.pysim.app.figures.ledger import STEPS
+from pysim.present.interactive import criteria_figure
+from tests.pysim.present.interactive.ledger import STEPS
 
 
 def test_criteria_stand_over_their_limits_which_are_a_line() -> None:

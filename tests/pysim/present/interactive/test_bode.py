@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pysim.app.figures import bode_figure
-from pysim.app.figures.bode import reference_place
 from pysim.identify import frequency_deviations
 from pysim.identify.greybox import Measurements, SinePlan, Treatment, problem
 from pysim.identify.greybox.stepped_sines import SteppedSines
+from pysim.present.interactive import bode_figure
+from pysim.present.interactive.bode import reference_place
 from pysim.types import Abilities, FrequencyResponse, Model, SineTest, Variable
-from tests.pysim.app.figures.traces import trace
 from tests.pysim.identify.greybox import measurements
+from tests.pysim.present.interactive.traces import trace
 
 F = [0.1, 1.0, 10.0]
 SIDE = {"gain": [2.0, 2.0, 0.2], "phase": [-0.1, -1.0, -2.0]}

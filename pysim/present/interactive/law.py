@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from pysim.app.figures.look import Figure, axis, figure, plain, unit_text
 from pysim.io import shown_unit
+from pysim.present.interactive.look import Figure, axis, figure, plain, unit_text
 
 
 def law_figure(law: Mapping[str, Any]) -> Figure:

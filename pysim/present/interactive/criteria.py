@@ -6,10 +6,10 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pysim.app.figures.look import Figure, axis, figure, plain
 from pysim.identify import FREQUENCY_CRITERIA
 from pysim.identify.accuracy import TIME_CRITERIA
 from pysim.present.diagnosis.words import step_name
+from pysim.present.interactive.look import Figure, axis, figure, plain
 
 CRITERIA = {c.symbol: c for c in (*FREQUENCY_CRITERIA, *TIME_CRITERIA)}
 _LEAST = 1e-3  # share of a limit below which nobody looks

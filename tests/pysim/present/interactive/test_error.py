@@ -1,8 +1,14 @@
 """The falling error: numbers are the ledger's."""
 
-from pysim.app.figures import error_figure
-from tests.pysim.app.figures.ledger import STEPS
-from tests.pysim.app.figures.traces import trace
+from pysim.present.interactive import error_figure
+from pysim.types import ErrorStep
+from tests.pysim.present.interactive.traces import trace
+
+STEPS = [
+    ErrorStep("prior", 64.0, 46.0, None, {}, True, 1.0),
+    ErrorStep("refit", 20.0, None, None, {}, True, 1.0),
+    ErrorStep("a<b>", 1.0, 0.9, None, {}, True, 1.0),
+]
 
 
 def test_the_staircase_has_every_step_and_an_empty_one_for_what_is_being_found() -> None:
@@ -13,6 +19,17 @@ def test_the_staircase_has_every_step_and_an_empty_one_for_what_is_being_found()
     assert found["layout"]["xaxis"]["ticktext"] == ["as it is", "refitted", "+ a&lt;b&gt;", "<i>refitting …</i>"]
     low, high = found["layout"]["yaxis"]["range"]
     assert 10**low < 0.9 < 64 < 10**high
+
+
+def test_logs_that_nobody_looked_at_have_a_line_of_their_own() -> None:
+    found = error_figure(
+        [ErrorStep("prior", 8.0, 7.0, 7.5, {}, True, 1.0), ErrorStep("refit", 4.0, 3.0, 3.5, {}, True, 1.0)]
+    )
+    assert [v for v in trace(found, "unseen")["y"] if v is not None] == [7.5, 7.5, 3.5, 3.5]
+    assert len({trace(found, name)["line"]["dash"] for name in ("fitted", "held out", "unseen")}) == 3
+    shifts = {note["text"]: (note.get("xshift", 0), note.get("yshift", 0)) for note in found["layout"]["annotations"]}
+    assert shifts["<b>8.00</b>"][1] > 0 > shifts["<b>7.00</b>"][1]
+    assert shifts["<b>7.50</b>"][0] > 0
 
 
 def test_a_staircase_begins_with_the_place_of_its_first_step() -> None:

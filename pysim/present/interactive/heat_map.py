@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from pysim.app.figures.look import Figure, axis, figure, plain
+from pysim.present.interactive.look import Figure, axis, figure, plain
 
 
 def map_figure(
@@ -54,5 +54,21 @@ def map_figure(
         xaxis=axis(title, type="category", showgrid=False, side="bottom"),
         yaxis=axis(type="category", autorange="reversed", showgrid=False, ticksuffix="  "),
         margin={"l": 40, "r": 10, "t": 10, "b": 46},
+        showlegend=False,
+    )
+
+
+def correlation_figure(names: Sequence[str], matrix: Sequence[Sequence[float | None]]) -> Figure:
+    """Correlations of estimates, from -1 to 1; an empty cell where the data determine none."""
+    shown = [[None if v is None or math.isnan(v) else v for v in row] for row in matrix]
+    text = [["" if v is None else f"{v:.2f}" for v in row] for row in shown]
+    words = [plain(name) for name in names]
+    heat: dict[str, Any] = {"type": "heatmap", "x": words, "y": words, "z": shown, "text": text}
+    heat |= {"texttemplate": "%{text}"}
+    heat |= {"zmin": -1, "zmax": 1, "colorscale": "RdBu", "reversescale": True, "xgap": 2, "ygap": 2}
+    return figure(
+        [{**heat, "hovertemplate": "%{y}, %{x}: %{z:.3f}<extra></extra>"}],
+        xaxis=axis(type="category", showgrid=False),
+        yaxis=axis(type="category", autorange="reversed", showgrid=False, ticksuffix="  "),
         showlegend=False,
     )

@@ -2,7 +2,7 @@
 
 import pytest
 
-from pysim.app.figures import overlay_figure, signal_trace
+from pysim.present.interactive import overlay_figure, signal_trace
 
 
 def test_without_models_every_signal_has_one_panel_in_the_unit_people_read() -> None:

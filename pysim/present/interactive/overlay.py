@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pysim.app.figures.look import LOOKS, Figure, axis, figure, plain, unit_text
 from pysim.identify import HALF_95
+from pysim.present.interactive.look import LOOKS, Figure, axis, figure, plain, unit_text
 
 
 def overlay_figure(

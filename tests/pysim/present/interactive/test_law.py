@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from pysim.app.figures import law_figure
+from pysim.present.interactive import law_figure
 
 
 def test_a_missing_term_is_shown_in_the_units_people_use() -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pysim.app.figures.look import Figure, axis, figure, plain
+from pysim.present.interactive.look import Figure, axis, figure, plain
 
 
 def parameters_figure(rows: Sequence[Mapping[str, Any]]) -> Figure:

@@ -1,0 +1,33 @@
+"""The drive of docs/own_model.md in Python: a fit not to be trusted, and one that is once its friction is found."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+import pysim
+from tests.test_docs import ROOT, blocks, commands, execute
+
+
+@pytest.mark.slow
+def test_the_drive_is_not_trusted_until_what_it_lacks_is_found(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    page = list(blocks((ROOT / "docs" / "own_model.md").read_text(encoding="utf-8")))
+    for words, _, source in page:
+        file = re.search(r"\bfile=(\S+)", words)
+        if file:
+            Path(file[1]).parent.mkdir(parents=True, exist_ok=True)
+            Path(file[1]).write_text(source, encoding="utf-8")
+    machine = next(source for words, _, source in page if words == "sh run")  # builds it and measures
+    assert [execute(command) for _, command in commands(machine, 0)][:2] == [0, 0]
+    data = pysim.load("measurements")
+    fitted = pysim.fit(pysim.model("Drive.Axis", library="Drive"), data)
+    print(*fitted.warnings, sep="\n")
+    assert len(fitted.warnings) >= 2
+    assert not fitted.ok
+    why = pysim.diagnose(fitted)
+    assert why.verdict == "axis.friction"
+    again = pysim.fit(why.model, data)
+    print(why, again, sep="\n")
+    assert again.ok, again.warnings
+    assert again.intervals["guideway.F_c"][0] < 60 < again.intervals["guideway.F_c"][1]
