@@ -14,6 +14,14 @@ class Matching:
         self.equation_of = [-1] * n_unknowns
         self._unknown_of: dict[int, int] = {}
 
+    def grow(self) -> None:
+        """One more unknown, the last."""
+        self.equation_of.append(-1)
+
+    def match(self, unknown: int, equation: int) -> None:
+        """Give an unknown to an equation, one that has none yet or gives up its own."""
+        self.equation_of[unknown], self._unknown_of[equation] = equation, unknown
+
     def add(self, equation: int, unknowns_of: Sequence[Sequence[int]]) -> set[int]:
         """Match `equation`, breadth first.
 
@@ -41,7 +49,7 @@ class Matching:
         while True:
             equation = came_from[unknown]
             given_up = self._unknown_of.get(equation)
-            self.equation_of[unknown], self._unknown_of[equation] = equation, unknown
+            self.match(unknown, equation)
             if given_up is None:
                 return
             unknown = given_up
