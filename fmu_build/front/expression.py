@@ -1,6 +1,7 @@
 """Expressions of a flat Modelica model: a typed tree, each node with the place it was written at."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, fields
 from enum import Enum
 from pathlib import Path
 
@@ -182,3 +183,16 @@ class Sample(Expression):
 
     start: Expression
     interval: Expression
+
+
+def references(expression: Expression) -> Iterator[str]:
+    """The names of the variables that an expression refers to, in written order."""
+    waiting: list[object] = [expression]
+    while waiting:
+        part = waiting.pop()
+        if isinstance(part, Reference):
+            yield part.name
+        elif isinstance(part, tuple):
+            waiting += reversed(part)
+        elif isinstance(part, Expression):
+            waiting += [getattr(part, field.name) for field in reversed(fields(part))]

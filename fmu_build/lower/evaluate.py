@@ -71,6 +71,8 @@ class Evaluator:
         if id(node) not in frame.done:
             try:
                 frame.done[id(node)] = self._methods[type(node)](node, frame)
+            except RecursionError:
+                raise
             except (ValueError, IndexError, TypeError, RuntimeError, NotImplementedError) as failure:
                 raise BuildError(f"cannot evaluate: {failure}", node.span.file, node.span.line) from None
         return frame.done[id(node)]

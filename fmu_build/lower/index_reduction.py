@@ -75,7 +75,7 @@ class _Pantelides:
             self.derivative[unknown] = len(self.symbols)
             self._number[symbol.element_hash()] = len(self.symbols)
             self.symbols.append(symbol)
-            self._matching.equation_of.append(-1)
+            self._matching.grow()
         new = {}
         for equation in sorted(met):
             new[equation] = len(self.equations)
@@ -88,7 +88,7 @@ class _Pantelides:
         for unknown, derivative in self.derivative.items():
             owner = self._matching.equation_of[unknown]
             if owner in new and self._matching.equation_of[derivative] < 0:
-                self._matching.equation_of[derivative] = new[owner]
+                self._matching.match(derivative, new[owner])
         return new
 
     def _total_derivative(self, equation: ScalarEquation) -> Scalar:

@@ -11,6 +11,7 @@ from fmu_build.front.flat_model import FlatModel, FlatVariable, Role
 from fmu_build.front.flat_model import Scalar as ScalarKind
 from fmu_build.lower.evaluate import Evaluator, Frame
 from fmu_build.lower.scope import ScalarVariable, scalar_names, shaped
+from fmu_build.lower.sorting import blocks
 from fmu_build.lower.values import Scalar, Value, scalars
 
 PARAMETER_ROLES = (Role.CONSTANT, Role.STRUCTURAL, Role.PARAMETER)
@@ -43,8 +44,8 @@ class Parameters:
         self.free: list[ScalarVariable] = []
 
     def evaluate_all(self) -> None:
-        for name, variable in self._variables.items():
-            if variable.scalar is not ScalarKind.STRING:
+        for name in self._in_order():
+            if self._variables[name].scalar is not ScalarKind.STRING:
                 self.value(name)
 
     def __contains__(self, name: str) -> bool:
@@ -65,6 +66,18 @@ class Parameters:
             self._in_progress.pop()
         return self._values[name]
 
+    def _in_order(self) -> list[str]:
+        """All names, each behind those that its value refers to: a long chain needs no deep recursion."""
+        names = list(self._variables)
+        numbers = {name: k for k, name in enumerate(names)}
+        values = [self._value_of(variable) for variable in self._variables.values()]
+        used = [() if value is None else ex.references(value) for value in values]
+        order = blocks([[numbers[name] for name in found if name in numbers] for found in used])
+        return [names[k] for block in order for k in block]
+
+    def _value_of(self, variable: FlatVariable) -> ex.Expression | None:
+        return self._given.get(variable.name, variable.binding) or variable.start
+
     def _evaluate(self, variable: FlatVariable) -> Value:
         if variable.scalar is ScalarKind.STRING:
             return self._text(variable)
@@ -79,10 +92,9 @@ class Parameters:
 
     def _bindings(self, variable: FlatVariable, size: int) -> list[Scalar | None]:
         is_free = variable.fixed is not None and not all(variable.fixed)
-        binding = self._given.get(variable.name, variable.binding)
         if is_free and variable.name not in self._given and variable.binding is None:
             return [None] * size
-        expression = binding or variable.start
+        expression = self._value_of(variable)
         if expression is None:
             raise BuildError(
                 f"{variable.name} has no value; give one in the model, or with --set {variable.name}=",

@@ -12,6 +12,15 @@ class Matching:
 
     def __init__(self, n_unknowns: int) -> None:
         self.equation_of = [-1] * n_unknowns
+        self._unknown_of: dict[int, int] = {}
+
+    def grow(self) -> None:
+        """One more unknown, the last."""
+        self.equation_of.append(-1)
+
+    def match(self, unknown: int, equation: int) -> None:
+        """Give an unknown to an equation, one that has none yet or gives up its own."""
+        self.equation_of[unknown], self._unknown_of[equation] = equation, unknown
 
     def add(self, equation: int, unknowns_of: Sequence[Sequence[int]]) -> set[int]:
         """Match `equation`, breadth first.
@@ -22,7 +31,6 @@ class Matching:
         came_from: dict[int, int] = {}  # unknown -> equation it was reached from
         met = {equation}
         queue = deque([equation])
-        unknown_of = {e: v for v, e in enumerate(self.equation_of) if e >= 0}
         while queue:
             current = queue.popleft()
             for unknown in unknowns_of[current]:
@@ -31,17 +39,17 @@ class Matching:
                 came_from[unknown] = current
                 owner = self.equation_of[unknown]
                 if owner < 0:
-                    self._augment(unknown, came_from, unknown_of)
+                    self._augment(unknown, came_from)
                     return set()
                 met.add(owner)
                 queue.append(owner)
         return met
 
-    def _augment(self, unknown: int, came_from: dict[int, int], unknown_of: dict[int, int]) -> None:
+    def _augment(self, unknown: int, came_from: dict[int, int]) -> None:
         while True:
             equation = came_from[unknown]
-            given_up = unknown_of.get(equation)
-            self.equation_of[unknown] = equation
+            given_up = self._unknown_of.get(equation)
+            self.match(unknown, equation)
             if given_up is None:
                 return
             unknown = given_up
@@ -78,10 +86,10 @@ def blocks(successors: Sequence[Sequence[int]]) -> list[list[int]]:
             if descend:
                 continue
             if low[node] == index[node]:
-                component = stack[stack.index(node) :]
-                del stack[-len(component) :]
-                for member in component:
-                    on_stack[member] = False
+                component = []
+                while on_stack[node]:
+                    component.append(stack.pop())
+                    on_stack[component[-1]] = False
                 result.append(sorted(component))
             if work:
                 low[work[-1][0]] = min(low[work[-1][0]], low[node])

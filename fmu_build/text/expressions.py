@@ -14,7 +14,7 @@ from fmu_build.text.tokens import Tokens, is_name, tokenise
 
 ARRAY, IF, NEGATE = "{}", "if", "negate"
 _LEVELS = (("or",), ("and",), ("<", "<=", ">", ">=", "==", "<>"), ("+", "-"), ("*", "/"))
-_MOST = 100_000  # elements of an array of literals; a file that asks for more is a mistake, or worse
+MOST_ELEMENTS = 100_000  # elements of an array of literals; a file that asks for more is a mistake, or worse
 _PAIRS = ("<=", ">=", "==", "<>")
 
 
@@ -231,9 +231,15 @@ def _elementwise(function: Callable[[float, float], float]) -> Callable[[Value, 
 def _fill(value: Value, *sizes: float) -> Value:
     if not sizes:
         raise ValueError("an array needs a size")
+    _count(_length(value) * math.prod(sizes))
     for size in reversed(sizes):
         value = (value,) * _count(size)
     return value
+
+
+def _length(value: Value) -> int:
+    """Numbers in a value whose parts are of one size."""
+    return len(value) * _length(value[0]) if isinstance(value, tuple) and value else 1
 
 
 def _linspace(first: float, last: float, count: float) -> Value:
@@ -241,7 +247,7 @@ def _linspace(first: float, last: float, count: float) -> Value:
 
 
 def _count(size: float) -> int:
-    if not 0 <= size <= _MOST:
+    if not 0 <= size <= MOST_ELEMENTS:
         raise ValueError(f"an array of {size:g} elements is too large")
     return int(size)
 

@@ -13,6 +13,7 @@ from fmu_build.front.rumoca.form.places import Places
 from fmu_build.front.rumoca.refused.actions import refuse_lost_actions
 from fmu_build.front.rumoca.refused.conditions import refuse_folded_conditions
 from fmu_build.front.rumoca.refused.constants import refuse_mixed_constants
+from fmu_build.front.rumoca.refused.enormous import refuse_enormous_models, refuse_enormous_texts
 from fmu_build.front.rumoca.refused.miscounted import miscounted
 from fmu_build.front.rumoca.refused.overrides import refuse_unknown_overrides
 from fmu_build.front.rumoca.refused.redeclarations import refuse_lost_redeclarations
@@ -41,6 +42,7 @@ class Refusal(Generic[Check]):
 TEXT: tuple[Refusal[Callable[[ClassText, Libraries], None]], ...] = (
     Refusal("loses redeclarations, and modifications in them", "0.10.2", refuse_lost_redeclarations),
     Refusal("gives constants of a package the values of another", "0.10.2", refuse_mixed_constants),
+    Refusal("writes out arrays, ranges and chains of any length", "0.10.2", refuse_enormous_texts),
 )
 # After it, from its own form of the model.
 FORM: tuple[Refusal[Callable[[Mapping[str, Any], Places], None]], ...] = (
@@ -49,6 +51,7 @@ FORM: tuple[Refusal[Callable[[Mapping[str, Any], Places], None]], ...] = (
 # After it, from the flat model: the class, the libraries, the model, and the values set.
 MODEL: tuple[Refusal[Callable[[ClassText, Libraries, FlatModel, Mapping[str, float | str]], None]], ...] = (
     Refusal("takes a value for a parameter that does not exist", "0.10.2", refuse_unknown_overrides),
+    Refusal("hands over variables and loops of any size", "0.10.2", refuse_enormous_models),
     Refusal("drops assertions and when-clauses of an if-equation", "0.10.2", refuse_lost_actions),
 )
 # Where it fails: what it says, the class, and the libraries -> the error at what it has miscounted, if it has.

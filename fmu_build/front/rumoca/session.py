@@ -23,8 +23,10 @@ from fmu_build.text.lookup import Libraries
 
 _NOISE = re.compile(r"^(?:[a-z]+ failed: )?(?:\S+ (?:could not be compiled|failed in \w+): )?")
 _BYTES = re.compile(r"start: BytePos\((\d+)\), end: BytePos\((\d+)\)")
+_NO_MEMORY = b"memory allocation of"  # what a program in Rust says when it has none left
 _WORKER = Path(__file__).with_name("worker.py")
-_LONGEST_S = 900.0  # a compiler that hangs is ended; a large library on a slow machine is not
+# A compiler that hangs is ended; a library on a slow machine is not: ours, of 0.45 MB, takes 3 s.
+_LONGEST_S, _LONGEST_S_PER_MB = 60.0, 60.0
 PLACE = re.compile(r"\[([^\[\]\n]+?\.mo):(\d+):\d+\]")
 
 
@@ -89,18 +91,20 @@ def _ask_rumoca(request: Mapping[str, Any], source: ClassText) -> dict[str, Any]
     """What the worker answers. It costs 0.1 s to start; without it, an abort in the parser would end this process."""
     if importlib.util.find_spec("rumoca") is None:
         raise BuildError("building from Modelica needs rumoca 0.10.2; install it with: pip install rumoca==0.10.2")
+    size = sum(map(os.path.getsize, request["files"]), len(request["text"]))
+    longest = _LONGEST_S + _LONGEST_S_PER_MB * size / 1e6
     try:
         done = subprocess.run(
             [sys.executable, "-P", str(_WORKER)],
             input=json.dumps(request).encode(),
             capture_output=True,
             env=_surroundings(),
-            timeout=_LONGEST_S,
+            timeout=longest,
             check=False,
         )
     except subprocess.TimeoutExpired:
         raise BuildError(
-            f"the Modelica compiler was not done with {source.full_name} within {_LONGEST_S:g} s and was ended; "
+            f"the Modelica compiler was not done with {source.full_name} within {longest:.0f} s and was ended; "
             "leave out parts of the class to find what it cannot take",
             *source.place(source.start),
         ) from None
@@ -109,6 +113,12 @@ def _ask_rumoca(request: Mapping[str, Any], source: ClassText) -> dict[str, Any]
         return answer
     except ValueError:
         last = done.stderr.decode(errors="replace").strip().splitlines()[-1:]
+        if _NO_MEMORY in done.stderr:
+            raise BuildError(
+                f"the Modelica compiler needs more memory for {source.full_name} than it is given; choose smaller "
+                "arrays and shorter loops",
+                *source.place(source.start),
+            ) from None
         said = "; ".join([f"exit code {done.returncode}", *last])
         raise BuildError(
             f"the Modelica compiler crashed on {source.full_name} ({said}); "

@@ -54,7 +54,7 @@ if __name__ == "__main__":
     if sys.platform == "linux":  # one array of a billion numbers must not take the machine; 0.3 GB is our largest model
         import resource
 
-        most, hard = 8_000_000_000, resource.getrlimit(resource.RLIMIT_AS)[1]
+        most, hard = 4_000_000_000, resource.getrlimit(resource.RLIMIT_AS)[1]
         resource.setrlimit(resource.RLIMIT_AS, (most if hard == resource.RLIM_INFINITY else min(most, hard), hard))
     out = os.dup(1)
     os.dup2(2, 1)  # whatever native code prints is no part of the answer

@@ -25,11 +25,8 @@ _TITLE = "The pump's swash plate against the transfer functions of thesis Table 
 
 def run(given: Given) -> int:
     """Print both tables, and leave report.html, plots, JSON, the FMUs and the data set as each is there."""
-    from concurrent.futures import ProcessPoolExecutor
-    from multiprocessing import get_context
-    from signal import SIG_DFL, SIGINT, signal
-
     from pysim.cli.outputs import prepare_folder
+    from pysim.identify.greybox import helper_processes
     from pysim.io import read_dataset, write_file
     from pysim.present.comparison import Comparisons, comparison_text, data, page
     from pysim.present.progress import Working
@@ -41,8 +38,7 @@ def run(given: Given) -> int:
     folder = prepare_folder(given.output)
     frequencies = QUICK_FREQUENCIES_HZ if given.quick else FREQUENCIES_HZ
     # On two cores the solver is compiled while the models are built, and pictures are drawn while the models run.
-    silent = (SIGINT, SIG_DFL)  # Ctrl-C ends the helpers without a word
-    with ProcessPoolExecutor(2, mp_context=get_context("spawn"), initializer=signal, initargs=silent) as helpers:
+    with helper_processes(2) as helpers:
         compiled = helpers.submit(build_kernel)
         models = {label: _build(label, folder) for label in CLASSES}
         dataset = read_dataset(write_dataset(folder / "measurements", frequencies))

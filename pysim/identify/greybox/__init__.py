@@ -15,7 +15,7 @@ from pysim.identify.greybox.search import Tried
 from pysim.identify.greybox.settings import FitSettings, NoiseSettings
 from pysim.identify.greybox.treatment import Measurements, Rest, SinePlan, Treatment
 from pysim.identify.greybox.trust import fit_warnings, step_warnings
-from pysim.identify.greybox.workers import Cluster, Processes, Threads
+from pysim.identify.greybox.workers import Cluster, Processes, Threads, helper_processes
 
 __all__ = [
     "COMBINED",
@@ -51,6 +51,7 @@ __all__ = [
     "fit",
     "fit_at",
     "fit_warnings",
+    "helper_processes",
     "problem",
     "profile",
     "step_warnings",

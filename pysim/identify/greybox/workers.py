@@ -100,7 +100,7 @@ class Processes:
         results: dict[int, Result] = {}
         again: list[int] = []
         chunks = _chunks(len(jobs), 4 * count)
-        with _pool(count) as pool:
+        with helper_processes(count) as pool:
             waiting = [pool.submit(_run_share, _share(model, jobs, chunk, solver)) for chunk in chunks]
             for chunk, job in zip(chunks, waiting, strict=True):
                 try:
@@ -108,7 +108,7 @@ class Processes:
                 except BrokenProcessPool:
                     again += chunk
         for i in again:
-            with _pool(1) as pool:
+            with helper_processes(1) as pool:
                 try:
                     results[i] = pool.submit(_run_share, _share(model, jobs, [i], solver)).result()[0]
                 except BrokenProcessPool:
@@ -116,7 +116,7 @@ class Processes:
         return [results[i] for i in range(len(jobs))]
 
 
-def _pool(count: int) -> ProcessPoolExecutor:
+def helper_processes(count: int) -> ProcessPoolExecutor:
     """Processes that Ctrl-C ends at once and without a word; the parent says what has to be said."""
     context, silent = multiprocessing.get_context("spawn"), (signal.SIGINT, signal.SIG_DFL)
     return ProcessPoolExecutor(count, mp_context=context, initializer=signal.signal, initargs=silent)

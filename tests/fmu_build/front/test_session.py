@@ -41,12 +41,24 @@ def test_a_compiler_that_dies_is_one_error_with_the_place_of_the_class(file, tmp
     assert (caught.value.file, caught.value.line) == (file, 1)
 
 
+def test_a_compiler_without_memory_is_one_error_with_the_cure(file, tmp_path, monkeypatch):
+    script = tmp_path / "worker.py"
+    script.write_text(
+        "import os, sys; print('memory allocation of 24 bytes failed', file=sys.stderr, flush=True); os.abort()",
+        encoding="utf-8",
+    )
+    monkeypatch.setattr(session, "_WORKER", script)
+    with pytest.raises(BuildError, match="needs more memory for M than it is given; choose smaller arrays") as caught:
+        load("M", [file])
+    assert (caught.value.file, caught.value.line) == (file, 1)
+
+
 def test_a_compiler_that_hangs_is_ended_and_is_one_error_with_the_place_of_the_class(file, tmp_path, monkeypatch):
     script = tmp_path / "worker.py"
     script.write_text("import time; time.sleep(60)", encoding="utf-8")
     monkeypatch.setattr(session, "_WORKER", script)
-    monkeypatch.setattr(session, "_LONGEST_S", 0.5)
-    with pytest.raises(BuildError, match=r"not done with M within 0\.5 s and was ended") as caught:
+    monkeypatch.setattr(session, "_LONGEST_S", 1.0)
+    with pytest.raises(BuildError, match=r"not done with M within 1 s and was ended") as caught:
         load("M", [file])
     assert (caught.value.file, caught.value.line) == (file, 1)
 

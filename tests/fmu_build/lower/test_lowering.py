@@ -121,6 +121,13 @@ def test_parameters_follow_each_other():
     assert Runner(model, {"a": 5.0}).at("x") == 15.0
 
 
+def test_parameters_written_ahead_of_those_they_follow_may_be_many():
+    """A recursion along the chain would end at some hundred."""
+    chain = " ".join(f"parameter Real p{k} = p{k - 1} + 1;" for k in range(400, 0, -1))
+    model = body(f"{chain} parameter Real p0 = 1; Real x(start = p400, fixed = true); equation der(x) = 0;")
+    assert Runner(model, {"p0": 2.0}).at("x") == 402.0
+
+
 def test_structural_parameter_cannot_be_set():
     model = body(
         "parameter Boolean b = true; Real x(start = 0, fixed = true);"

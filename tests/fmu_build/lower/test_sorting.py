@@ -23,6 +23,27 @@ def test_matching_is_as_large_as_possible():
             assert equation < 0 or unknown in unknowns_of[equation]
 
 
+def test_an_equation_with_an_unknown_of_its_own_does_not_walk_the_others():
+    class Unwalked(list):
+        def __iter__(self):
+            raise AssertionError("walked")
+
+    matching = Matching(3)
+    matching.equation_of = Unwalked(matching.equation_of)
+    assert [matching.add(e, [[0], [0, 1], [1, 2]]) for e in range(3)] == [set()] * 3
+    assert [matching.equation_of[k] for k in range(3)] == [0, 1, 2]
+
+
+def test_an_unknown_that_was_given_to_an_equation_can_be_given_up():
+    """Equation 1 was given unknown 1 and takes unknown 2, the one that came later."""
+    matching = Matching(2)
+    matching.grow()
+    matching.match(1, 1)
+    assert matching.add(0, [[1], [1, 2]]) == set()
+    assert matching.equation_of == [-1, 0, 1]
+    assert matching.add(2, [[1], [1, 2], [2]]) == {0, 1, 2}
+
+
 def test_a_failure_names_equations_with_too_few_unknowns():
     unknowns_of = [[0], [0, 1], [1], [2]]
     matching = Matching(3)

@@ -34,6 +34,7 @@ def test_literals(text: str, value: object) -> None:
 @pytest.mark.parametrize(
     "text",
     ["", "x", "1 +", "(1", "1)", "1 2", "{1, 2", "{1} + {1, 2}", "1/0", "(-8)^0.5", "9e99^9", "zeros(1e9)", "zeros(-1)",
+     "fill(1, 1e4, 1e4)", "fill(zeros(1e4), 1e4)",
      "zeros()", "open(1)", '"a"', "__import__(1)", "(" * 5000, "1 if 2", "linspace(0, 1, 1)", "1_000", "c[n]", "c[1"],
 )  # fmt: skip
 def test_what_is_no_literal_is_refused(text: str) -> None:

@@ -60,17 +60,15 @@ def demo(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     def simulate_many(model: Model, experiments: Sequence[Experiment], **_: Any) -> list[Record]:
         return [from_the_table(experiment, 2e-3 * (model.name == "locked")) for experiment in experiments]
 
-    class InThisProcess(ThreadPoolExecutor):
+    def in_this_process(count: int) -> ThreadPoolExecutor:
         """In place of two processes, which would know nothing of the stand-ins."""
-
-        def __init__(self, workers: int, mp_context: object, **quiet: object) -> None:
-            super().__init__(1)
+        return ThreadPoolExecutor(1)
 
     def draw_picture(comparisons: Sequence[Comparison], folder: Path, name: str) -> Drawing:
         (folder / f"{name}.png").write_bytes(b"drawn where compare is tested")
         return Drawing(name, name, b"<svg/>")
 
-    monkeypatch.setattr("concurrent.futures.ProcessPoolExecutor", InThisProcess)
+    monkeypatch.setattr("pysim.identify.greybox.helper_processes", in_this_process)
     monkeypatch.setattr("pysim.cli.commands.demo.draw_picture", draw_picture)
     monkeypatch.setattr("validation.pump.pump_model", pump_model)
     monkeypatch.setattr(import_module("pysim.diagnosis.response_comparison"), "simulate_many", simulate_many)

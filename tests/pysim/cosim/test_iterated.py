@@ -8,11 +8,12 @@ from pysim.types import BadInput, Experiment, Outcome, Port, SimulationError
 from tests.cosim_parts import Linear
 
 
-def stiff(gain: float) -> System:
+def stiff(gain: float, before: str = "") -> System:
     """dx/dt = -gain x, cut in two: one member integrates, the other gives the rate at once. Released from 1."""
-    state = Linear("state", (Port("u"),), (Port("y"),), A=[[0.0]], B=[[1.0]], C=[[1.0]], x0=[1.0])
-    law = Linear("law", (Port("u"),), (Port("y"),), A=[[0.0]], B=[[0.0]], C=[[0.0]], D=[[-gain]])
-    return System((state, law), (Connection("state.y", "law.u"), Connection("law.y", "state.u")))
+    state = Linear(f"{before}state", (Port("u"),), (Port("y"),), A=[[0.0]], B=[[1.0]], C=[[1.0]], x0=[1.0])
+    law = Linear(f"{before}law", (Port("u"),), (Port("y"),), A=[[0.0]], B=[[0.0]], C=[[0.0]], D=[[-gain]])
+    lines = Connection(f"{before}state.y", f"{before}law.u"), Connection(f"{before}law.y", f"{before}state.u")
+    return System((state, law), lines)
 
 
 def test_stiff_coupling_is_stable() -> None:
@@ -39,6 +40,13 @@ def test_the_limit_stops_the_run() -> None:
     ) as caught:
         cosimulate(stiff(10.0), experiment, step=1.0, order=Iterated(limit=2))
     assert caught.value.record.outcome is Outcome.NOT_CONVERGED
+
+
+def test_what_still_moves_is_named_and_nothing_beside_it() -> None:
+    quiet, moving = stiff(0.01, "quiet_"), stiff(10.0)
+    system = System((*quiet.members, *moving.members), (*quiet.connections, *moving.connections))
+    with pytest.raises(SimulationError, match=r"t = 0 s: (state|law): \1\.y still changes by"):
+        cosimulate(system, Experiment(np.linspace(0, 1, 2), ("state.y",)), step=1.0, order=Iterated(limit=2))
 
 
 @pytest.mark.parametrize("order", [Jacobi(lines=True), GaussSeidel(lines=True), Iterated()], ids=str)

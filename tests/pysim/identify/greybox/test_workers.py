@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from pysim.identify.greybox import Cluster, Parameter, Processes, Simulation, Threads, problem
-from pysim.identify.greybox.workers import Job, _pool
+from pysim.identify.greybox.workers import Job, helper_processes
 from pysim.io import read_model
 from pysim.simulate import Esdirk
 from pysim.types import Experiment, Model, Outcome
@@ -89,7 +89,7 @@ def test_an_fmu_that_crashes_ends_its_worker_and_not_the_run(tmp_path: Path) -> 
 
 def test_ctrl_c_ends_a_worker_process_at_once() -> None:
     """One that caught it would go on with the shares that wait, and show a traceback for each."""
-    with _pool(1) as pool:
+    with helper_processes(1) as pool:
         assert pool.submit(signal.getsignal, signal.SIGINT).result() == signal.SIG_DFL
 
 

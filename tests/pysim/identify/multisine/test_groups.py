@@ -1,6 +1,7 @@
 """Realisations are told by their spectra."""
 
 import numpy as np
+import pytest
 
 from pysim.identify.multisine import Periods
 from pysim.identify.multisine.groups import grouped_realisations
@@ -27,3 +28,11 @@ def test_grid_amplitude_and_offset_tell_tests_apart() -> None:
     assert [g.values.shape[:2] for g in groups] == [(2, 3), (2, 3), (1, 3), (1, 3)]
     assert [g.origin for g in groups] == ["0", "1", "3", "4"]
     np.testing.assert_array_equal(groups[0].values[1], records[2].values[0, 1:])
+
+
+@pytest.mark.parametrize("amplitude", [0.1, 30.0])
+def test_an_offset_counts_against_the_size_of_the_command(amplitude: float) -> None:
+    first = single(0, amplitude=amplitude)
+    size = float(np.std(first.values[..., 0]))
+    near, far = (single(0, amplitude=amplitude, offset=share * size) for share in (0.05, 0.2))
+    assert [group.values.shape[0] for group in grouped_realisations([first, near, far])] == [2, 1]
