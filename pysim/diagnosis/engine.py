@@ -20,7 +20,7 @@ from pysim.diagnosis.learn.outside import outside_laws
 from pysim.diagnosis.left import follows
 from pysim.diagnosis.next_test import next_test
 from pysim.diagnosis.progress import Progress, Say
-from pysim.diagnosis.refit import FinalFit, begin, converged
+from pysim.diagnosis.refit import FinalFit, begin, converged, integrated
 from pysim.diagnosis.search import Found, Search
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.tone import tone
@@ -185,7 +185,9 @@ def _answer(
     """
     search.say.doing("counting what is left")
     final = _alone(found.final, search) if found.final.names else found.final
-    found = replace(found, final=final)
+    if refitted:
+        final = integrated(final, session.settings.refinements)
+    found = replace(found, base=found.base if found.final.names else final, final=final)
     untouched = [(PRIOR, search.as_it_is()), *([(REFIT, found.base)] if refitted else [])]
     named: Named = [*untouched, *_kept(found, models, final, search)]
     account = _account(session, found, named)

@@ -172,6 +172,21 @@ def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
     return advance(again, _optimiser().max_iterations) if again.good else fit
 
 
+def integrated(fit: FinalFit, refinements: int) -> FinalFit:
+    """Gone on with until a ten times finer integration leaves the search nothing to do.
+
+    However small beside the noise, errors of the integration are the same in every sample, and so add up.
+    """
+    for _ in range(refinements):
+        finer = converged(begin(fit.candidate, fit.values, fit.simulation.finer(), fit))
+        if not finer.good:
+            break
+        fit = finer
+        if not fit.state.tried:
+            break
+    return fit
+
+
 @dataclass(frozen=True)
 class Runner:
     """A rival of a race.

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pysim.diagnosis import Settings
 from pysim.diagnosis.adequacy import shortcomings
@@ -20,14 +19,13 @@ from pysim.identify.greybox import (
     Simulation,
     Tie,
     Treatment,
-    Tried,
     fit,
     problem,
 )
 from pysim.identify.greybox.optimiser import Optimiser
+from pysim.identify.greybox.search import Progress
 from pysim.io import in_model_units
-from pysim.simulate import simulate_many
-from pysim.types import BadInput, Dataset, Fit, FitOutcome, Model, Outcome, Record
+from pysim.types import BadInput, Dataset, Fit, Model, Record
 from pysim.types.dataset import INITIAL
 from pysim.workflow.free import Bounds, free_parameters
 
@@ -97,9 +95,11 @@ def fitted(
     optimiser: Optimiser | None = None,
     simulation: Simulation | None = None,
     effort: Effort | None = None,
-    progress: Callable[[Tried], None] | None = None,
+    progress: Progress | None = None,
 ) -> Fit:
-    """The fit of a problem; where errors of the integration count, or stopped the search, it goes on with a finer one.
+    """The fit of a problem, gone on with until a ten times finer integration leaves the search nothing to do.
+
+    However small beside the noise, errors of the integration are the same in every sample, and so add up.
 
     Args:
         problem, objective, optimiser, simulation, effort, progress: as of `pysim.identify.greybox.fit`.
@@ -110,34 +110,25 @@ def fitted(
     found = fit(
         problem, objective=objective, optimiser=optimiser, simulation=simulation, effort=effort, progress=progress
     )
-    settings = Settings()
-    for _ in range(settings.refinements):
-        finer, space = simulation.finer(), problem.space
-        if found.outcome is not FitOutcome.STALLED and _error(found, problem.model, finer) < settings.fine:
-            break
-        simulation = finer
-        here = np.array([found[key].value for key in space.keys])
-        problem = replace(problem, space=replace(space, start=here))
-        only = Effort(nominal=False, rough=False)  # an earlier log is of the rougher integration
+    only = Effort(nominal=False, rough=False)  # an earlier log is of the rougher integration
+    for _ in range(Settings().refinements):
+        simulation = simulation.finer()
+        here = np.array([found[key].value for key in problem.space.keys])
+        problem = replace(problem, space=replace(problem.space, start=here))
         again = fit(problem, objective=objective, optimiser=optimiser, simulation=simulation, effort=only,
-                    progress=progress)  # fmt: skip
+                    progress=_further(progress, found.iterations + 1))  # fmt: skip
         begun = {one.name: one.start for one in found.estimates}
         estimates = tuple(replace(one, start=begun[one.name]) for one in again.estimates)
-        found = replace(again, estimates=estimates, starts=found.starts, iterations=found.iterations + again.iterations)
+        found = replace(again, estimates=estimates, starts=found.starts, start_cost=found.start_cost,
+                        iterations=found.iterations + again.iterations)  # fmt: skip
+        if not again.iterations:
+            break
     return found
 
 
-def _error(found: Fit, model: Model, finer: Simulation) -> float:
-    """Root-mean-square change of the fitted logs over their noise where the integration is finer; 0 without logs."""
-    logs = [one for one in found.records if not one.harmonics]
-    if len(logs) != len(found.experiments):
-        return 0.0  # some could not be simulated, which is said
-    squares: list[NDArray[np.float64]] = []
-    runs = simulate_many(model, list(found.experiments), solver=finer.solver)
-    for log, run in zip(logs, runs, strict=True):
-        if run.outcome is Outcome.DONE and not log.held_out:
-            squares.append(np.ravel((run.values - log.simulated.values) / np.array(log.noise)) ** 2)
-    return float(np.sqrt(np.mean(np.concatenate(squares)))) if squares else 0.0
+def _further(progress: Progress | None, tried: int) -> Progress | None:
+    """Progress of a search that goes on after so many points."""
+    return None if progress is None else lambda told: progress(told._replace(tried=tried + told.tried))
 
 
 def beginning(dataset: Dataset, initial: str | None) -> Dataset:

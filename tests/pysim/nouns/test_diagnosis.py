@@ -86,7 +86,12 @@ def test_what_is_missing_is_located_with_its_shape(missing: Law) -> None:
     assert missing.slot == "force"
     assert missing.argument == "force.v" or missing.found.factor == "sign(v)"
     assert missing.share > 0.95
-    assert np.median(np.abs(missing.found.coefficients)) == pytest.approx(FRICTION, rel=0.2)
+    if missing.argument == "force.v":  # beside the line that the damping may as well have taken
+        shapes = np.column_stack([np.sign(missing.found.knots), missing.found.knots])
+        level = np.linalg.lstsq(shapes, missing.found.coefficients, rcond=None)[0][0]
+        assert level == pytest.approx(-FRICTION, rel=0.2)
+    else:
+        assert np.median(np.abs(missing.found.coefficients)) == pytest.approx(FRICTION, rel=0.2)
     assert max(len(repr(missing)), len(missing._repr_html_())) < 2000
     assert missing.plot().axes
 
