@@ -173,16 +173,16 @@ def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
 
 
 def integrated(fit: FinalFit, refinements: int) -> FinalFit:
-    """Gone on with until a ten times finer integration leaves the search nothing to do.
+    """Gone on with by ten times finer integrations, until one gains no more than what ends a search.
 
     However small beside the noise, errors of the integration are the same in every sample, and so add up.
     """
     for _ in range(refinements):
-        finer = converged(begin(fit.candidate, fit.values, fit.simulation.finer(), fit))
-        if not finer.good:
+        begun = begin(fit.candidate, fit.values, fit.simulation.finer(), fit)
+        if not begun.good:
             break
-        fit = finer
-        if not fit.state.tried:
+        fit = converged(begun)
+        if begun.point.cost - fit.point.cost < _optimiser().tolerance:
             break
     return fit
 

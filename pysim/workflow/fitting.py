@@ -24,6 +24,7 @@ from pysim.identify.greybox import (
 )
 from pysim.identify.greybox.optimiser import Optimiser
 from pysim.identify.greybox.search import Progress
+from pysim.identify.greybox.settings import FitSettings
 from pysim.io import in_model_units
 from pysim.types import BadInput, Dataset, Fit, Model, Record
 from pysim.types.dataset import INITIAL
@@ -97,7 +98,7 @@ def fitted(
     effort: Effort | None = None,
     progress: Progress | None = None,
 ) -> Fit:
-    """The fit of a problem, gone on with until a ten times finer integration leaves the search nothing to do.
+    """The fit of a problem, gone on with by ten times finer integrations, until one gains no more than ends a search.
 
     However small beside the noise, errors of the integration are the same in every sample, and so add up.
 
@@ -121,7 +122,7 @@ def fitted(
         estimates = tuple(replace(one, start=begun[one.name]) for one in again.estimates)
         found = replace(again, estimates=estimates, starts=found.starts, start_cost=found.start_cost,
                         iterations=found.iterations + again.iterations)  # fmt: skip
-        if not again.iterations:
+        if not again.start_cost - again.cost >= FitSettings().tolerance:
             break
     return found
 
