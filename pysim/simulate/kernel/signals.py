@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from threading import Lock
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,12 +22,16 @@ class Packed(NamedTuple):
 
 
 class Packs:
-    """Signals that were packed before, since every pass of a fit has the same ones; the last few that took long."""
+    """Signals that were packed before, since every pass of a fit has the same ones; the last few that took long.
+
+    Passes in several threads may share it.
+    """
 
     _MOST, _WORTH = 8, 64  # packs; experiments and pieces of signals
 
     def __init__(self) -> None:
         self._packs: dict[Any, tuple[Any, Packed]] = {}
+        self._changing = Lock()
 
     def inputs(self, model: Model, experiments: Sequence[Experiment]) -> Packed:
         """As `pack_inputs`, with work space of its own."""
@@ -47,14 +52,17 @@ class Packs:
         return self._packed(key, experiments, lambda: pack_breaks(experiments, ends))
 
     def _packed(self, key: Any, experiments: Sequence[Experiment], pack: Callable[[], Packed]) -> Packed:
-        if key in self._packs:
-            return self._packs[key][1]
+        known = self._packs.get(key)
+        if known is not None:
+            return known[1]
         packed = pack()
         pieces = sum(signal.starts.size for e in experiments for signal in e.inputs.values())
         if len(experiments) + pieces > self._WORTH:
-            while len(self._packs) >= self._MOST:
-                self._packs.pop(next(iter(self._packs)))
-            self._packs[key] = [(e.inputs, e.rates) for e in experiments], packed  # which keeps the numbers in the key
+            kept = [(e.inputs, e.rates) for e in experiments]  # so that the numbers in the key stay theirs
+            with self._changing:
+                while len(self._packs) >= self._MOST:
+                    self._packs.pop(next(iter(self._packs)))
+                self._packs[key] = kept, packed
         return packed
 
 
