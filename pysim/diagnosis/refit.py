@@ -178,11 +178,11 @@ def integrated(fit: FinalFit, refinements: int) -> FinalFit:
     However small beside the noise, errors of the integration are the same in every sample, and so add up.
     """
     for _ in range(refinements):
-        begun = begin(fit.candidate, fit.values, fit.simulation.finer(), fit)
-        if not begun.good:
+        start = begin(fit.candidate, fit.values, fit.simulation.finer(), fit)
+        if not start.good:
             break
-        fit = converged(begun)
-        if begun.point.cost - fit.point.cost < _optimiser().tolerance:
+        fit = converged(start)
+        if start.point.cost - fit.point.cost < _optimiser().tolerance:
             break
     return fit
 
@@ -231,8 +231,8 @@ def race(runners: Sequence[Runner], settings: Settings, fine: Simulation) -> lis
         running = going
     ranked = sorted(_best_starts([*running, *resting]), key=_promise)
     ended = [
-        (converged(fit, fine) if k < settings.finalists and before - fit.expected >= least else fit, before)
-        for k, (fit, before) in enumerate(ranked)
+        (converged(one[0], fine), one[1]) if k < settings.finalists and -_promise(one) >= least else one
+        for k, one in enumerate(ranked)
     ]
     return [fit for fit, before in sorted(ended, key=lambda one: one[0].point.cost - one[1])]
 

@@ -154,7 +154,7 @@ class Search:
             if np.sqrt(np.mean((error / floors.rows(base)) ** 2)) < self.settings.fine:
                 break
             self.fine, self.rough = finer, finer.finer(1 / self.settings.rougher)
-            base = self._fits[_key(base)] = converged(other)  # costs of rougher runs are no match for it
+            base = self._fits[_key(base.candidate)] = converged(other)  # costs of rougher runs are no match for it
             floors = floors.with_(base)
         return base
 
@@ -302,8 +302,10 @@ class Search:
         tried = best_of_each(screen(self.models, beside, self.rough))
         sensors = with_sensor_errors(starts.here(present.candidate.transient), self.models)
         self.tried = max(self.tried, len(tried) + len(sensors))
-        runners = starts.runners(tried, sensors, self.tried)
-        raced = partial(race, runners, self.settings, self.fine)
+
+        def raced() -> list[FinalFit]:
+            return race(starts.runners(tried, sensors, self.tried), self.settings, self.fine)
+
         part = f"beside {' + '.join(present.candidate.labels) or 'the base model'}"
         candidates = [one.candidate for one in tried] + [fit.candidate for fit in sensors]
         fits = self._checkpoint.once(part, raced, candidates, self._simulations)
@@ -427,13 +429,13 @@ class Search:
 
     def _beside_unfitted(self, fit: FinalFit) -> tuple[rivals.Rows | None, float]:
         """A fit beside the logs that may choose: their rows, none where one cannot be simulated, and nats."""
-        known = self._unfitted.get(_key(fit))
+        known = self._unfitted.get(_key(fit.candidate))
         if known is None or known[0] is not fit:
             residuals = fit.candidate.residuals(fit.simulation, "validate")
             residuals = replace(residuals, nuisances=(), known=fit.sensor_errors)
             point = settled_initial_states(residuals, fit.candidate.model, fit.candidate.space, fit.point.x)
             rows = rivals.rows(fit.candidate, residuals, point) if point.good else None
-            known = self._unfitted[_key(fit)] = fit, rows, point.cost
+            known = self._unfitted[_key(fit.candidate)] = fit, rows, point.cost
         return known[1:]
 
     def _without(self, fit: FinalFit, label: str) -> FinalFit:
@@ -452,7 +454,7 @@ class Search:
     def _refitted(self, candidate: Candidate, values: Values, present: FinalFit) -> FinalFit:
         """Refitted from where another model stands, or as it is known where that promises to end hardly lower."""
         rough = converged(begin(candidate, values, self.rough, present))
-        known = self._fits.get((frozenset(candidate.labels), candidate.transient))
+        known = self._fits.get(_key(candidate))
         fit = begin(candidate, rough.values, self.fine, rough) if rough.good else rough
         if known is not None:
             hardly = self.settings.small * max(known.point.cost - present.point.cost, 0.0)
@@ -461,12 +463,12 @@ class Search:
         return converged(fit)
 
     def _keep(self, fit: FinalFit) -> FinalFit:
-        key = _key(fit)
+        key = _key(fit.candidate)
         if key not in self._fits or fit.point.cost < self._fits[key].point.cost:
             self._fits[key] = fit
         return self._fits[key]
 
 
-def _key(fit: FinalFit) -> tuple[frozenset[str], bool]:
+def _key(candidate: Candidate) -> tuple[frozenset[str], bool]:
     """A model, whatever the order in which effects came into it, and how it is compared."""
-    return frozenset(fit.candidate.labels), fit.candidate.transient
+    return frozenset(candidate.labels), candidate.transient

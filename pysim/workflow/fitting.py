@@ -122,7 +122,8 @@ def fitted(
         estimates = tuple(replace(one, start=begun[one.name]) for one in again.estimates)
         found = replace(again, estimates=estimates, starts=found.starts, start_cost=found.start_cost,
                         iterations=found.iterations + again.iterations)  # fmt: skip
-        if not again.start_cost - again.cost >= FitSettings().tolerance:
+        last = again.starts[0]  # in what its objective counts
+        if last.first_cost - last.cost < FitSettings().tolerance:
             break
     return found
 

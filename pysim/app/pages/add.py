@@ -68,10 +68,8 @@ class _Error:
             return
         self._place.set_visibility(True)
         told = "; ".join(f"{s['step']} {s['fit'] or s['validate'] or 0:.2f}" for s in steps) or doing
-        figure, label = (
-            error_figure([read_step(s) for s in steps], doing=doing),
-            f"Error over noise, step by step: {told}",
-        )
+        figure = error_figure([read_step(s) for s in steps], doing=doing)
+        label = f"Error over noise, step by step: {told}"
         if self._chart is None:
             with self._place:
                 self._chart = Chart(figure, label, height=350)
