@@ -164,12 +164,21 @@ def _expecting(state: State, bounds: Bounds) -> State:
 
 
 def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
-    """The end of the search, by finer simulations where they are given."""
+    """The end of the search, by finer simulations where they are given.
+
+    Costs that jump, as those of a model with a memory do, shorten its steps until none is left: so it begins anew where
+    it ended, until that gains no more.
+    """
     fit = advance(fit, _optimiser().max_iterations)
-    if simulation is None or simulation == fit.simulation or not fit.good:
-        return fit
-    again = begin(fit.candidate, fit.values, simulation, fit)
-    return advance(again, _optimiser().max_iterations) if again.good else fit
+    if simulation is not None and simulation != fit.simulation and fit.good:
+        finer = begin(fit.candidate, fit.values, simulation, fit)
+        fit = advance(finer, _optimiser().max_iterations) if finer.good else fit
+    while fit.good and not fit.candidate.has_events:
+        again = advance(begin(fit.candidate, fit.values, fit.simulation, fit), _optimiser().max_iterations)
+        if not again.good or fit.point.cost - again.point.cost < _optimiser().tolerance:
+            break
+        fit = again
+    return fit
 
 
 def integrated(fit: FinalFit, refinements: int) -> FinalFit:

@@ -46,6 +46,14 @@ class Screened:
         """The one that is new."""
         return self.candidate.effects[-1]
 
+    def leaves(self, present: Rows) -> Rows:
+        """What the present model leaves with the effect at its best size, to first order: an effect that is missing
+        colours the residual, which must not argue against it.
+        """
+        change, residual = self.change / present.level, present.residual / present.level
+        amount = -float(change @ residual) / float(change @ change) if self.gain > 0 else 0.0
+        return replace(present, residual=present.residual + amount * self.change)
+
 
 @dataclass(frozen=True)
 class Sizes:
@@ -59,9 +67,9 @@ class Sizes:
         moved: what initial states may still take, as a share of what the effect does, above which they move along.
     """
 
-    usual: tuple[float, ...] = (0.3,)
+    usual: tuple[float, ...] = (0.3, 1.0)
     bypassed: tuple[float, ...] = (0.5, 2.0)
-    limits: tuple[float, ...] = (0.92, 0.75, 0.55, 0.35)
+    limits: tuple[float, ...] = (0.92, 0.75, 0.55, 0.35, 0.2, 0.1)
     limits_unknown: tuple[float, ...] = (0.25, 0.6, 1.0, 2.0)
     moved: float = 0.02
 

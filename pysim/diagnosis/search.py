@@ -299,12 +299,13 @@ class Search:
         beside = partial(self._beside, present)
         near = self.floors.within(present, self.settings.near)
         starts = Starts(beside, self.fine if near else self.rough, near, self.settings)
-        tried = best_of_each(screen(self.models, beside, self.rough))
+        sizes = screen(self.models, beside, self.rough)
+        tried = best_of_each(sizes)
         sensors = with_sensor_errors(starts.here(present.candidate.transient), self.models)
         self.tried = max(self.tried, len(tried) + len(sensors))
 
         def raced() -> list[FinalFit]:
-            return race(starts.runners(tried, sensors, self.tried), self.settings, self.fine)
+            return race(starts.runners(tried, sensors, self.tried, sizes), self.settings, self.fine)
 
         part = f"beside {' + '.join(present.candidate.labels) or 'the base model'}"
         candidates = [one.candidate for one in tried] + [fit.candidate for fit in sensors]

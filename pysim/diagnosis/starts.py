@@ -7,8 +7,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from functools import partial
 
-import numpy as np
-
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate, Values
 from pysim.diagnosis.refit import FinalFit, Runner, begin, cost_at
@@ -48,34 +46,46 @@ class Starts:
         fit = self.beside(rival.candidate.transient)
         return fit if fit.simulation == rival.simulation else self.here(rival.candidate.transient)
 
-    def runners(self, screened: Sequence[Screened], sensors: Sequence[FinalFit], tried: int) -> list[Runner]:
+    def runners(
+        self, screened: Sequence[Screened], sensors: Sequence[FinalFit], tried: int, sizes: Sequence[Screened]
+    ) -> list[Runner]:
         """What is refitted, the most promising first; near the floor only what may pass the test of its gain.
 
         Args:
             screened: effects at their best size, the best first.
             sensors: the model with a sensor's error more, each.
             tried: all that is looked at, for what chance could do.
+            sizes: effects at every size.
         """
         found = [self._runner(one.candidate, one.values, self._most(one.gain)) for one in screened]
         found += [self._of_sensor(fit) for fit in sensors]
         if not self.near:  # the model's parameters may be those of a wrong optimum
-            starts = [(one.candidate, own_values(one)) for one in screened]
-            costs = [cost_at(c, values, self.simulation, self.beside(c.transient)) for c, values in starts]
-            order = np.argsort(costs, kind="stable")[: self.settings.finalists].tolist()
-            nearest = [starts[k] for k in order if math.isfinite(costs[k])]
-            return found + [self._runner(candidate, values, math.inf) for candidate, values in nearest]
+            return found + self._nearest(sizes)
         lefts = [rivals.of(self.beside(one.candidate.transient)) for one in screened]
-        sizes = [
-            (len(one.effect.parameters), rivals.effective(left, one.change))
+        worth = [
+            (len(one.effect.parameters), rivals.effective(one.leaves(left), one.change))
             for one, left in zip(screened, lefts, strict=True)
         ]
-        sizes += [(1, 1.0)] * len(sensors)
+        worth += [(1, 1.0)] * len(sensors)
         samples, size = rivals.samples(self.beside(False)), self.beside(False).candidate.size
         chances = [
             tried * rivals.p_value(one.most, df, samples, size + df, inflated)
-            for one, (df, inflated) in zip(found, sizes, strict=True)
+            for one, (df, inflated) in zip(found, worth, strict=True)
         ]
         return [one for one, chance in zip(found, chances, strict=True) if chance < self.settings.false_alarm]
+
+    def _nearest(self, sizes: Sequence[Screened]) -> list[Runner]:
+        """The effects that come nearest the measurements at the model's own parameters, where a limit fits any size."""
+        best: dict[str, tuple[float, Candidate, Values]] = {}
+        for one in sizes:
+            name, candidate, values = one.effect.name, one.candidate, own_values(one)
+            if name in best and best[name][2] == values:
+                continue
+            cost = cost_at(candidate, values, self.simulation, self.beside(candidate.transient))
+            if math.isfinite(cost) and (name not in best or cost < best[name][0]):
+                best[name] = cost, candidate, values
+        nearest = sorted(best.values(), key=lambda found: found[0])[: self.settings.finalists]
+        return [self._runner(candidate, values, math.inf) for _, candidate, values in nearest]
 
     def _most(self, gain: float) -> float:
         """Nats that a refit can gain at most."""

@@ -89,3 +89,10 @@ def test_a_search_that_has_ended_is_not_gone_on_with() -> None:
     assert end.state.outcome is FitOutcome.CONVERGED
     assert advance(end, 5).state.tried == end.state.tried
     assert end.expected == end.point.cost
+
+
+def test_a_search_whose_steps_became_too_short_begins_anew_where_it_ended() -> None:
+    begun = start("mass.friction", 0.5)
+    short = replace(begun, state=replace(begun.state, outcome=FitOutcome.CONVERGED))
+    assert converged(short).point.cost == pytest.approx(converged(begun).point.cost, abs=0.1)
+    assert begun.point.cost - converged(begun).point.cost > 10

@@ -1,0 +1,76 @@
+"""Which effects are refitted, and from where, on a mass with a spring."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from pysim.diagnosis.candidate import Models
+from pysim.diagnosis.refit import FinalFit, Runner
+from pysim.diagnosis.screen import Sizes, best_of_each, screen
+from pysim.diagnosis.session import session
+from pysim.diagnosis.settings import Settings
+from pysim.diagnosis.starts import Starts
+from pysim.effects import read_catalogue
+from pysim.workflow.variants import Variants
+from tests.known_answers.plants import PLANTS
+from tests.pysim.diagnosis.plants import FINE, given, measured, refitted
+
+STOPS = """
+package Stops
+  model Ends "End stops"
+    extends Mass.PartialForce;
+    parameter Real inverse_x_m(unit="1/m", min=0, max=200, nominal=5) = 0 "0 = off"
+      annotation(__HydraulicTestBench(inverse="x_m", limits="x"));
+  equation
+    f = noEvent(if x*inverse_x_m > 1 then -500*(x - 1/inverse_x_m)
+      elseif x*inverse_x_m < -1 then -500*(x + 1/inverse_x_m) else 0);
+    annotation(__HydraulicTestBench(effect="stops.ends", slot="force"));
+  end Ends;
+end Stops;
+"""
+
+
+def runners(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = None) -> list[Runner]:
+    def beside(transient: bool) -> FinalFit:
+        return fit
+
+    found = screen(models, beside, FINE, sizes)
+    best = best_of_each(found)
+    return Starts(beside, FINE, near, Settings()).runners(best, [], len(best), found)
+
+
+def begun(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = None) -> Mapping[str, list[FinalFit]]:
+    """Where each effect's refits begin."""
+    starts: dict[str, list[FinalFit]] = {}
+    for runner in runners(models, fit, near=near, sizes=sizes):
+        start = runner.start()
+        starts.setdefault(start.names[0], []).append(start)
+    return starts
+
+
+def test_an_effect_is_refitted_though_what_it_leaves_out_colours_the_residual() -> None:
+    """A constant force that is missing is all of the residual, which without it is worth a handful of samples."""
+    models = Models(given("mass", measured("mass", {"mass.bias": {"F_b": 0.4}}), ("mass.bias", "mass.hardening")))
+    starts = begun(models, refitted(models), near=True)
+    assert list(starts) == ["mass.bias"]
+
+
+def test_near_the_floor_nothing_is_refitted_where_nothing_is_missing() -> None:
+    models = Models(given("mass", measured("mass")))
+    assert begun(models, refitted(models), near=True) == {}
+
+
+def test_far_from_the_floor_a_limit_begins_at_the_size_that_is_nearest_the_measurements(tmp_path: Path) -> None:
+    """The model's parameters as given, its ends where they stop least."""
+    library = tmp_path / "Stops.mo"
+    library.write_text(STOPS, encoding="utf-8")
+    own = Variants("Mass.Design", (PLANTS["mass"].library, library))
+    data = measured("mass", length=4.0)
+    models = Models(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
+    fit = refitted(models)
+    sizes = Sizes(limits=(0.92, 0.55, 0.2))
+    tried = {one.tried["inverse_x_m"] for one in screen(models, lambda transient: fit, FINE, sizes)}
+    starts = begun(models, fit, near=False, sizes=sizes)["stops.ends"]
+    assert len(starts) == 2
+    nearest = starts[1].values["stops.ends", "inverse_x_m"]
+    assert nearest in tried
+    assert nearest == min(tried)  # the plant has no ends: the widest limit is nearest
