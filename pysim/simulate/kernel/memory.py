@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from pysim.simulate.kernel.library import kernel
+from pysim.simulate.kernel.library import address, kernel
+
+Array = NDArray[np.float64]
 
 
 def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict[str, Any]:
@@ -36,6 +40,17 @@ def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict
         **{name: np.zeros(n) for name in ("pivot_values", "tried_pivots", "probe", "magnitude")},
         "factors": np.zeros(square),
     }
+
+
+_LINE = 64  # bytes that memory is read by: a row that begins anywhere else is read twice
+
+
+def lined(*shape: int) -> Array:
+    """Zeros (shape) that begin where a line of memory does."""
+    count = math.prod(shape)
+    room = np.zeros(count + _LINE // 8)
+    first = -address(room) % _LINE // 8
+    return room[first : first + count].reshape(shape)
 
 
 def _scratch(shapes: dict[str, tuple[int, ...]]) -> dict[str, Any]:
