@@ -95,7 +95,7 @@ class Experiment:
     def override(self, **values: float) -> Experiment:
         """The same experiment with more parameters set; what stays is not checked again."""
         _check_numbers(values)
-        return changed(self, overrides=FrozenMapping({**self.overrides, **values}))
+        return changed(self, overrides=FrozenMapping(self.overrides, values))
 
     def moved(self, offset: Array, at: float | None = None) -> Experiment:
         """The same experiment with the states offset (n_x,) at that time (s); what stays is not checked again."""
@@ -105,8 +105,10 @@ class Experiment:
 
 
 def _check_numbers(overrides: Mapping[str, float]) -> None:
+    if {*map(type, overrides.values())} == {float}:  # a tenth of the time of looking at each
+        return
     for name, value in overrides.items():
-        if not isinstance(value, float | Real):  # the second alone takes ten times the time
+        if not isinstance(value, Real):
             raise BadInput(f"experiment: {name!r} cannot be set to {value!r}; give a number in its unit")
 
 

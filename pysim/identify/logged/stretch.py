@@ -21,6 +21,7 @@ _OUTLIER = 6.0
 _ROUNDS = 20
 # Of so many last samples at most, those are cut whose sum is off by more than this many of its standard deviations.
 _BEND, _TOGETHER = 50, 4.5
+_GLANCE = 64  # samples that mostly show that a decimal is not the last one written
 
 
 @dataclass(frozen=True)
@@ -73,11 +74,16 @@ def _step(values: Array) -> float:
     multiples = gaps / least
     if least < 0.1 * reach and np.max(np.abs(multiples - np.round(multiples))) < 0.05:
         return least
-    for decimal in 10.0 ** np.arange(10):
-        scaled = values * decimal
-        if np.max(np.abs(scaled - np.round(scaled))) < 1e-6 + 1e-15 * np.max(np.abs(scaled)):
-            return float(1 / decimal)
+    largest = float(np.max(np.abs(values)))
+    for decimal in (10.0**np.arange(10)).tolist():
+        if all(_whole(some * decimal, largest * decimal) for some in (values[:_GLANCE], values)):
+            return 1 / decimal
     return 0.0
+
+
+def _whole(counts: Array, largest: float) -> bool:
+    """Whether these are whole numbers, but for rounding."""
+    return bool(np.max(np.abs(counts - np.round(counts))) < 1e-6 + 1e-15 * largest)
 
 
 @dataclass(frozen=True)
