@@ -75,7 +75,7 @@ def _step(values: Array) -> float:
     if least < 0.1 * reach and np.max(np.abs(multiples - np.round(multiples))) < 0.05:
         return least
     largest = float(np.max(np.abs(values)))
-    for decimal in (10.0**np.arange(10)).tolist():
+    for decimal in (10.0 ** np.arange(10)).tolist():
         if all(_whole(some * decimal, largest * decimal) for some in (values[:_GLANCE], values)):
             return 1 / decimal
     return 0.0
