@@ -105,10 +105,8 @@ class Experiment:
 
 
 def _check_numbers(overrides: Mapping[str, float]) -> None:
-    if {*map(type, overrides.values())} == {float}:  # a tenth of the time of looking at each
-        return
     for name, value in overrides.items():
-        if not isinstance(value, Real):
+        if type(value) is not float and not isinstance(value, Real):  # the second alone takes ten times the time
             raise BadInput(f"experiment: {name!r} cannot be set to {value!r}; give a number in its unit")
 
 

@@ -140,10 +140,6 @@ class SineLog:
         return np.asarray(np.linalg.inv(self.triangle)[1:3])
 
 
-def _kept(data: Record, keep: NDArray[np.bool_]) -> Record:
-    return Record(data.time[keep], data.values[keep], data.names, data.units, origin=data.origin)
-
-
 def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan, *, index: int) -> SineLog:
     """Cut the last whole periods after settling.
 
@@ -162,7 +158,7 @@ def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], pl
             f"{settling:.3g} s of settling; record longer, or settle shorter"
         )
     keep = (data.time > end - whole * period - 0.5 * gap) & (data.time < end - 0.5 * gap)
-    cut = _kept(data, keep)
+    cut = Record(data.time[keep], data.values[keep], data.names, data.units, origin=data.origin)
     least, most = (harmonic_count(sine.frequency, 1 / gap, n) for n in (plan.harmonics, plan.points // 4))
     if cut.time.size < 2 * least + 2:
         raise BadInput(f"{source}: {cut.time.size} samples in {whole} periods are too few; record faster")

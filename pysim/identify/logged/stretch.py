@@ -21,7 +21,6 @@ _OUTLIER = 6.0
 _ROUNDS = 20
 # Of so many last samples at most, those are cut whose sum is off by more than this many of its standard deviations.
 _BEND, _TOGETHER = 50, 4.5
-_GLANCE = 64  # samples that mostly show that a decimal is not the last one written
 
 
 @dataclass(frozen=True)
@@ -76,14 +75,11 @@ def _step(values: Array) -> float:
         return least
     largest = float(np.max(np.abs(values)))
     for decimal in (10.0 ** np.arange(10)).tolist():
-        if all(_whole(some * decimal, largest * decimal) for some in (values[:_GLANCE], values)):
+        near = 1e-6 + 1e-15 * largest * decimal
+        parts = (some * decimal for some in (values[:8], values))  # a few mostly show that it is not the last
+        if all(np.max(np.abs(part - np.round(part))) < near for part in parts):
             return 1 / decimal
     return 0.0
-
-
-def _whole(counts: Array, largest: float) -> bool:
-    """Whether these are whole numbers, but for rounding."""
-    return bool(np.max(np.abs(counts - np.round(counts))) < 1e-6 + 1e-15 * largest)
 
 
 @dataclass(frozen=True)

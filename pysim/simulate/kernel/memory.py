@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pysim.simulate.kernel.library import address, kernel
-
-Array = NDArray[np.float64]
 
 
 def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict[str, Any]:
@@ -42,15 +38,11 @@ def work_arrays(n: int, m: int, stages: int, terms: int, implicit: bool) -> dict
     }
 
 
-_LINE = 64  # bytes that memory is read by: a row that begins anywhere else is read twice
-
-
-def lined(*shape: int) -> Array:
-    """Zeros (shape) that begin where a line of memory does."""
-    count = math.prod(shape)
-    room = np.zeros(count + _LINE // 8)
-    first = -address(room) % _LINE // 8
-    return room[first : first + count].reshape(shape)
+def lined(*shape: int) -> np.ndarray:
+    """Zeros that begin with a line of memory, 64 bytes: a row that lies across two is read in twice the time."""
+    count = int(np.prod(shape))
+    room = np.zeros(count + 8)
+    return room[-address(room) % 64 // 8 :][:count].reshape(shape)
 
 
 def _scratch(shapes: dict[str, tuple[int, ...]]) -> dict[str, Any]:
