@@ -48,7 +48,7 @@ class Tasks:
         self._put("kind", kind.kind)
         self._put("start", [e.start for e in experiments])
         self._put("end", ends)
-        self._put("times", [self._address(e.times) for e in experiments])
+        self._put("times", [address(e.times) for e in experiments])
         sizes = np.array([e.times.size for e in experiments])
         self._put("count", sizes)
         self._takes = [request.take for request in requests]
@@ -56,10 +56,10 @@ class Tasks:
             sizes = self._put_takes(sizes)
         self._put("mismatch", kind.mismatch)
         self._rows_of("set_values", numbers)
-        self._put("states", [self._address(r.states) for r in requests])
-        self._put("start_by", [self._address(r.start_by) for r in requests])
+        self._given("states", [r.states for r in requests])
+        self._given("start_by", [r.start_by for r in requests])
         self._put("offset_at", [offset_time(e) for e in experiments])
-        self._put("offset", [self._address(e.offset if e.offset.size else None) for e in experiments])
+        self._given("offset", [e.offset if e.offset.size else None for e in experiments])
         self._pack("inputs", packs.inputs(model, experiments))
         self._pack("breaks", packs.breaks(experiments, ends))
         if kind.kind == ORBIT:
@@ -120,12 +120,13 @@ class Tasks:
         self.table[name] = packed.structures
         self._kept.append(packed.kept)
 
-    def _address(self, array: Array | None) -> int:
-        if array is None:
-            return 0
-        contiguous = np.ascontiguousarray(array, dtype=np.float64)
-        self._kept.append(contiguous)
-        return address(contiguous)
+    def _given(self, name: str, arrays: Sequence[Array | None]) -> None:
+        """Each task points to its own array, all of one shape, or to none."""
+        given = [k for k, array in enumerate(arrays) if array is not None]
+        if given:
+            rows = np.array([arrays[k] for k in given], dtype=np.float64)
+            self._kept.append(rows)
+            self.table[name][given] = address(rows) + np.arange(len(given)) * rows.strides[0]
 
     def counts(self, number: int) -> bool:
         """Whether a task counts as done in what is said of progress."""

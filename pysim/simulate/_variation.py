@@ -10,6 +10,7 @@ import numpy as np
 
 from pysim.simulate._base import Solver
 from pysim.simulate.kernel.layout import ASKED, COLUMNS, FIXED
+from pysim.simulate.kernel.memory import lined
 from pysim.simulate.kernel.sparsity import output_pattern, parameter_pattern, partials, references
 from pysim.types import Model
 
@@ -56,12 +57,12 @@ def variation_arrays(
         "from_start": int(directions.states),
         "parameters": len(parameters),
         "tolerance": getattr(solver, "derivative_tol", np.inf),
-        "start_by": np.zeros((n, width)),
-        "s": np.zeros((n, width)),
-        "k": np.zeros((stages, n, width)),
-        "right": np.zeros((n, width)),
-        "inside": np.zeros((n, width)),
-        "error": np.zeros((n, width)),
+        "start_by": lined(n, width),
+        "s": lined(n, width),
+        "k": lined(stages, n, width),
+        "right": lined(n, width),
+        "inside": lined(n, width),
+        "error": lined(n, width),
         "sizes": np.zeros(width),
         "weights": np.zeros(stages),
         "forcing": np.zeros((len(parameters), n)),

@@ -35,8 +35,8 @@ class FrozenMapping(Mapping[str, V]):
 
     __slots__ = ("_content",)
 
-    def __init__(self, content: Mapping[str, V]) -> None:
-        self._content = dict(content)
+    def __init__(self, content: Mapping[str, V], more: Mapping[str, V] | None = None) -> None:
+        self._content = {**content, **(more or {})}
 
     def __getitem__(self, name: str) -> V:
         return self._content[name]

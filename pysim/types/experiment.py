@@ -95,7 +95,7 @@ class Experiment:
     def override(self, **values: float) -> Experiment:
         """The same experiment with more parameters set; what stays is not checked again."""
         _check_numbers(values)
-        return changed(self, overrides=FrozenMapping({**self.overrides, **values}))
+        return changed(self, overrides=FrozenMapping(self.overrides, values))
 
     def moved(self, offset: Array, at: float | None = None) -> Experiment:
         """The same experiment with the states offset (n_x,) at that time (s); what stays is not checked again."""
@@ -106,7 +106,7 @@ class Experiment:
 
 def _check_numbers(overrides: Mapping[str, float]) -> None:
     for name, value in overrides.items():
-        if not isinstance(value, float | Real):  # the second alone takes ten times the time
+        if type(value) is not float and not isinstance(value, Real):  # the second alone takes ten times the time
             raise BadInput(f"experiment: {name!r} cannot be set to {value!r}; give a number in its unit")
 
 

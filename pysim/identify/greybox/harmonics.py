@@ -22,15 +22,20 @@ def interpolation(phase: Array, points: int) -> Array:
 
     Source: Henrici 1979, Numerische Mathematik 33:225 (barycentric formula).
     """
-    half_phase, half_node = 0.5 * phase[:, None], np.pi * np.arange(points) / points
-    sin = np.sin(half_phase) * np.cos(half_node) - np.cos(half_phase) * np.sin(half_node)
-    met = np.abs(sin) <= 1e-12  # a phase that falls on a sample
-    weights = (1.0 - 2.0 * (np.arange(points) % 2)) / np.where(met, 1.0, sin)
+    half, node = 0.5 * phase, np.pi * np.arange(points) / points
+    sides = np.column_stack([np.sin(half), np.cos(half)])
+    nearest = np.round(half * (points / np.pi))
+    met = np.abs(np.sin(half - nearest * (np.pi / points))) <= 1e-12  # a phase that falls on a sample
+    own = np.flatnonzero(met), (nearest[met] % points).astype(np.intp)
+    sin = sides @ np.stack([np.cos(node), -np.sin(node)])
+    sin[own] = 1.0
+    weights = (1.0 - 2.0 * (np.arange(points) % 2)) / sin
     if points % 2 == 0:
-        weights *= np.cos(half_phase) * np.cos(half_node) + np.sin(half_phase) * np.sin(half_node)
-    weights[met.any(axis=1)] = 0.0
-    weights[met] = 1.0
-    return np.asarray(weights / weights.sum(axis=1, keepdims=True))
+        weights *= sides @ np.stack([np.sin(node), np.cos(node)])
+    weights[met] = 0.0
+    weights[own] = 1.0
+    weights /= weights.sum(axis=1, keepdims=True)
+    return np.asarray(weights)
 
 
 def to_complex(coefficients: Array) -> NDArray[np.complex128]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -54,6 +54,8 @@ class SineLog:
         noise: (n_y,) standard deviations, in the columns' units.
         count: harmonics.
         points: samples over one period of the model's orbit.
+        columns, triangle: orthonormal columns (n_t, n_h) that span mean and harmonics, and the triangle (n_h, n_h)
+            behind them.
         index: of the log, as in `RecordFit`.
     """
 
@@ -63,18 +65,9 @@ class SineLog:
     noise: tuple[float, ...]
     count: int
     points: int
+    columns: Array = field(repr=False)
+    triangle: Array = field(repr=False)
     index: int = field(kw_only=True)
-    # every harmonic's size and phase in one: orthonormal columns (n_t, n_h) and the triangle (n_h, n_h) behind them
-    _factors: tuple[Array, Array] = field(init=False, repr=False)
-
-    def __post_init__(self) -> None:
-        q, r = np.linalg.qr(regressors(self.phase, self.count))
-        object.__setattr__(self, "_factors", (q, r))
-
-    @property
-    def factors(self) -> tuple[Array, Array]:
-        """Orthonormal columns (n_t, n_h) that span mean and harmonics, and the triangle (n_h, n_h) behind them."""
-        return self._factors
 
     @property
     def periods(self) -> int:
@@ -90,16 +83,12 @@ class SineLog:
     @cached_property
     def onto(self) -> Array:
         """From a period of the model's orbit (points,) to uncorrelated harmonics of unit noise, (n_h, points)."""
-        return np.asarray(self._factors[0].T @ interpolation(self.phase, self.points))
+        return np.asarray(self.columns.T @ interpolation(self.phase, self.points))
 
     @cached_property
     def harmonics(self) -> Array:
         """Measured, uncorrelated, in the columns' units, (n_h, n_y)."""
-        return np.asarray(self._factors[0].T @ self.measured.values)
-
-    def part(self, keep: NDArray[np.bool_]) -> SineLog:
-        """The same of some of its samples, (n_t,)."""
-        return replace(self, measured=_kept(self.measured, keep))
+        return np.asarray(self.columns.T @ self.measured.values)
 
     @cached_property
     def unlike(self) -> float:
@@ -108,31 +97,37 @@ class SineLog:
 
         A valve that is too slow for the sine, or a plate that sticks, may need many periods more than were left out.
         """
-        first = self.phase < self.phase[0] + (1 - 1e-6) * 2 * np.pi
-        if any(np.count_nonzero(part) < 2 * self.count + 2 for part in (first, ~first)):
+        phase = self.phase
+        first = int(np.searchsorted(phase, phase[0] + (1 - 1e-6) * 2 * np.pi))
+        if min(first, phase.size - first) < 2 * self.count + 2:
             return 0.0
-        begun, rest = self.part(first), self.part(~first)
-        variance = sum(part.variances[:, None] * np.maximum(part.scatter, self.noise) ** 2 for part in (begun, rest))
-        return float(np.max(np.abs(rest.parts - begun.parts) / np.sqrt(variance)))
+        (begun, one), (rest, other) = (self._fitted(part) for part in (slice(first), slice(first, None)))
+        return float(np.max(np.abs(rest - begun) / np.sqrt(one + other)))
+
+    def _fitted(self, part: slice) -> tuple[Array, Array]:
+        """Mean, sine and cosine of each harmonic in turn, fitted to a part of the samples, and their variances, both
+        (n_h, n_y) in the columns' units."""
+        columns, values = self.columns[part], self.measured.values[part]
+        spread = np.linalg.inv(columns.T @ columns)
+        found = spread @ (columns.T @ values)
+        scatter = np.sqrt(np.mean((values - columns @ found) ** 2, axis=0))
+        back = np.linalg.inv(self.triangle)
+        variances = np.einsum("ij,jk,ik->i", back, spread, back)
+        return back @ found, variances[:, None] * np.maximum(scatter, self.noise) ** 2
 
     def coefficients(self, uncorrelated: Array) -> NDArray[np.complex128]:
         """(n_h, ...) as `harmonics` -> mean and complex harmonics (count + 1, ...)."""
-        return to_complex(np.asarray(np.linalg.solve(self._factors[1], uncorrelated), dtype=np.float64))
-
-    @property
-    def parts(self) -> Array:
-        """Measured mean, sine and cosine of each harmonic in turn, in the columns' units, (n_h, n_y)."""
-        return np.asarray(np.linalg.solve(self._factors[1], self.harmonics), dtype=np.float64)
+        return to_complex(np.asarray(np.linalg.solve(self.triangle, uncorrelated), dtype=np.float64))
 
     @property
     def variances(self) -> Array:
         """Of mean, sines and cosines at unit noise, (n_h,)."""
-        return np.asarray(np.sum(np.linalg.inv(self._factors[1]) ** 2, axis=1))
+        return np.asarray(np.sum(np.linalg.inv(self.triangle) ** 2, axis=1))
 
     @property
     def scatter(self) -> Array:
         """Root mean square of what mean and harmonics leave of each column, in its unit, (n_y,)."""
-        rest = self.measured.values - self._factors[0] @ self.harmonics
+        rest = self.measured.values - self.columns @ self.harmonics
         return np.asarray(np.sqrt(np.mean(rest**2, axis=0)))
 
     def deviations(self) -> Array:
@@ -142,11 +137,7 @@ class SineLog:
 
     def fundamental(self) -> Array:
         """Rows (2, n_h) that take uncorrelated harmonics to the fundamental's sine and cosine parts."""
-        return np.asarray(np.linalg.inv(self._factors[1])[1:3])
-
-
-def _kept(data: Record, keep: NDArray[np.bool_]) -> Record:
-    return Record(data.time[keep], data.values[keep], data.names, data.units, origin=data.origin)
+        return np.asarray(np.linalg.inv(self.triangle)[1:3])
 
 
 def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan, *, index: int) -> SineLog:
@@ -167,23 +158,29 @@ def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], pl
             f"{settling:.3g} s of settling; record longer, or settle shorter"
         )
     keep = (data.time > end - whole * period - 0.5 * gap) & (data.time < end - 0.5 * gap)
-    cut = _kept(data, keep)
+    cut = Record(data.time[keep], data.values[keep], data.names, data.units, origin=data.origin)
     least, most = (harmonic_count(sine.frequency, 1 / gap, n) for n in (plan.harmonics, plan.points // 4))
     if cut.time.size < 2 * least + 2:
         raise BadInput(f"{source}: {cut.time.size} samples in {whole} periods are too few; record faster")
-    count = max(least, _seen(cut.values, sine.at(cut.time), most))
-    return SineLog(source, sine, cut, noise, count, plan.points, index=index)
+    phase = sine.at(cut.time)
+    most = max(least, most) if len(phase) > 3 * most else least  # as many are left for the noise
+    columns, triangle = np.linalg.qr(regressors(phase, most))
+    count = max(least, _seen(cut.values, columns))
+    size = 2 * count + 1
+    columns, triangle = columns[:, :size].copy(), triangle[:size, :size]
+    return SineLog(source, sine, cut, noise, count, plan.points, columns, triangle, index=index)
 
 
-def _seen(values: Array, phase: Array, most: int) -> int:
-    """The highest of `most` harmonics that stands out of what all of them leave of some column of values (n_t, n_y).
+def _seen(values: Array, columns: Array) -> int:
+    """The highest harmonic that stands out of what all of them leave of some column of values (n_t, n_y).
 
     A valve's dead band shows in harmonics that no sine has; where they are not compared, they count as noise.
+
+    Args:
+        columns: (n_t, n_h) orthonormal, of mean and harmonics.
     """
-    freedom = len(phase) - 2 * most - 1
-    if freedom < most:
-        return 0
-    parts = np.linalg.qr(regressors(phase, most))[0].T @ values
+    parts = columns.T @ values
+    freedom, most = len(values) - columns.shape[1], columns.shape[1] // 2
     rest = np.maximum(np.sum(values**2, axis=0) - np.sum(parts**2, axis=0), 0.0) / freedom
     pairs = np.sum(parts[1:].reshape(most, 2, -1) ** 2, axis=1)
     found = np.flatnonzero((pairs > -2 * np.log(_CHANCE) * rest).any(axis=1))

@@ -73,10 +73,12 @@ def _step(values: Array) -> float:
     multiples = gaps / least
     if least < 0.1 * reach and np.max(np.abs(multiples - np.round(multiples))) < 0.05:
         return least
-    for decimal in 10.0 ** np.arange(10):
-        scaled = values * decimal
-        if np.max(np.abs(scaled - np.round(scaled))) < 1e-6 + 1e-15 * np.max(np.abs(scaled)):
-            return float(1 / decimal)
+    largest = float(np.max(np.abs(values)))
+    for decimal in (10.0 ** np.arange(10)).tolist():
+        near = 1e-6 + 1e-15 * largest * decimal
+        parts = (some * decimal for some in (values[:8], values))  # a few mostly show that it is not the last
+        if all(np.max(np.abs(part - np.round(part))) < near for part in parts):
+            return 1 / decimal
     return 0.0
 
 

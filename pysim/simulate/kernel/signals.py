@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from threading import Lock
 from typing import Any, NamedTuple
@@ -48,7 +49,7 @@ class Packs:
     def breaks(self, experiments: Sequence[Experiment], ends: Sequence[float]) -> Packed:
         """As `pack_breaks`."""
         times = [(e.start, offset_time(e), end) for e, end in zip(experiments, ends, strict=True)]
-        key = tuple([(id(e.inputs), id(e.rates), repr(t)) for e, t in zip(experiments, times, strict=True)])
+        key = tuple([(id(e.inputs), id(e.rates), t) for e, t in zip(experiments, times, strict=True)])
         return self._packed(key, experiments, lambda: pack_breaks(experiments, ends))
 
     def _packed(self, key: Any, experiments: Sequence[Experiment], pack: Callable[[], Packed]) -> Packed:
@@ -136,9 +137,9 @@ def pack_breaks(experiments: Sequence[Experiment], ends: Sequence[float]) -> Pac
 
 
 def offset_time(experiment: Experiment) -> float:
-    """When the states are offset (s); NaN where they are not."""
+    """When the states are offset (s); NaN, always the same object, where they are not."""
     if not experiment.offset.size:
-        return np.nan
+        return math.nan
     return float(experiment.start if experiment.offset_at is None else experiment.offset_at)
 
 

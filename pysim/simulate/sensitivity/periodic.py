@@ -214,5 +214,5 @@ def _check_guesses(model: Model, tests: Sequence[Periodic], guesses: Sequence[Ar
             raise BadInput(f"periodic_many: a guess is the model's {n} states, got {guess!r}") from error
         if start.size and start.shape != (n,):
             raise BadInput(f"periodic_many: a guess is the model's {n} states, got an array of shape {start.shape}")
-        starts.append(start if start.size and np.isfinite(start).all() else None)
+        starts.append(start if start.size and math.isfinite(start.sum()) else None)
     return starts
