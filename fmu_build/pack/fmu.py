@@ -1,8 +1,10 @@
 """An OdeModel to a checked .fmu."""
 
 import hashlib
+import os
 import uuid
 from collections.abc import Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from itertools import groupby
 from pathlib import Path
 
@@ -79,11 +81,17 @@ def _binaries(
     def place(platform: Platform) -> str:
         return f"binaries/{platform.folder(fmi)}/{identifier}{platform.suffix}"
 
-    members = {}
     with scratch() as folder:
         (folder / "model.c").write_bytes(model_c)
         files = (folder / "model.c", *sources.compiled)
-        for path, group in groupby(sorted(platforms, key=place), key=place):
-            library = folder / Path(path).name
-            members[path] = fat_library([compile_shared(files, sources.includes, p, library) for p in group])
-    return members
+
+        def compiled(platform: Platform) -> bytes:
+            library = folder / platform.name / Path(place(platform)).name
+            library.parent.mkdir()
+            return compile_shared(files, sources.includes, platform, library)
+
+        ordered = sorted(platforms, key=place)
+        with ThreadPoolExecutor(os.cpu_count()) as side_by_side:  # each waits for a compiler, a process of its own
+            libraries = zip(ordered, side_by_side.map(compiled, ordered), strict=True)
+            groups = groupby(libraries, key=lambda pair: place(pair[0]))
+            return {path: fat_library([library for _, library in group]) for path, group in groups}

@@ -23,6 +23,7 @@ class Libraries:
         self.places = [Path(place) for place in places]
         self._by_full_name: dict[str, ClassText | None] = {}
         self._resolved: dict[tuple[str, str], ClassText | None] = {}
+        self._files = [place for place in self.places if not place.is_dir()]  # where any class may stand
         self._in_bases_of: set[str] = set()  # guards against a base that is looked up in its own bases
 
     def classes(self, word: str = "") -> Iterator[ClassText]:
@@ -154,6 +155,10 @@ class Libraries:
 
     def _read(self, name: str) -> ClassText | None:
         parts = split_name(name)
+        around = self._by_full_name.get(name[: -len(parts[-1]) - 1])
+        may_hold_it = [*self._files, *(place for place in self.places if place.name == parts[0])]
+        if len(may_hold_it) == 1 and around is not None and around.source.file.name != "package.mo":
+            return around.classes.get(parts[-1])  # no file has to be looked for
         for place in self.places:
             if place.is_dir() and place.name == parts[0]:
                 found = _inside(*file_of(place, parts[1:]))

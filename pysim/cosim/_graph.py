@@ -6,8 +6,6 @@ from collections.abc import Mapping
 from graphlib import TopologicalSorter
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 Graph = Mapping[str, frozenset[str]]
 
@@ -18,6 +16,9 @@ def components(graph: Graph) -> list[tuple[str, ...]]:
     Args:
         graph: node -> nodes it depends on; all of them are keys.
     """
+    from scipy.sparse import coo_array  # 0.2 s to import, which no process of a single member has to wait for
+    from scipy.sparse.csgraph import connected_components
+
     nodes = list(graph)
     number = {node: i for i, node in enumerate(nodes)}
     pairs = [(number[node], number[need]) for node in nodes for need in graph[node]]

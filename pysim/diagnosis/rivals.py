@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy import stats
+from scipy.special import fdtrc, fdtri
 
 from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.refit import FinalFit
@@ -106,7 +106,7 @@ def p_value(gain: float, df: float, samples: float, size: int, inflated: float) 
     if freedom < 1:
         return 1.0
     ratio = math.expm1(min(2 * max(gain, 0.0) / samples, 600.0)) * freedom / df
-    return float(stats.f.sf(ratio, df, freedom))
+    return float(fdtrc(df, freedom, ratio))
 
 
 def least_gain(chance: float, df: int, samples: float, size: int, inflated: float) -> float:
@@ -114,7 +114,7 @@ def least_gain(chance: float, df: int, samples: float, size: int, inflated: floa
     freedom = samples / inflated - size
     if freedom < 1:
         return math.inf
-    return 0.5 * samples * math.log1p(float(stats.f.isf(chance, df, freedom)) * df / freedom)
+    return 0.5 * samples * math.log1p(float(fdtri(df, freedom, 1.0 - chance)) * df / freedom)
 
 
 def samples(fit: FinalFit) -> float:

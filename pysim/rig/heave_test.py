@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.signal import butter, sosfiltfilt
 
 from pysim.excitation import LeadIn, PiersonMoskowitz, StochasticWave
 from pysim.rig.rig_system import OUTPUTS
@@ -133,6 +132,8 @@ def _longest(spans: Array) -> float:
 
 def slow_part(values: Array, time: Array) -> Array:
     """What of values (n_t,) at evenly spaced times is below 1 Hz, without lag."""
+    from scipy.signal import butter, sosfiltfilt  # half a second to import, for those alone who tried controllers
+
     rate = (time.size - 1) / (time[-1] - time[0])
     return np.asarray(sosfiltfilt(butter(4, 1.0, fs=rate, output="sos"), values), dtype=np.float64)
 

@@ -6,7 +6,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.linalg import expm
 
 from pysim.control.pi import PI
 from pysim.control.tuning.plant import Plant
@@ -84,6 +83,8 @@ def loop_response(
 
 def _sampled(plant: Plant, dt: float) -> tuple[Array, Array, Array, float]:
     """x(k+1) = A x(k) + B u(k), y = C x + D u of the rational part, its input held; in a time scaled to its poles."""
+    from scipy.linalg import expm  # 0.2 s to import
+
     order = len(plant.denominator) - 1
     scale = max(float(np.abs(plant.poles()).max(initial=0.0)), 1e-12 / dt)
     powers = scale ** np.arange(order + 1)

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import lsq_linear
 
 from pysim.identify.greybox.identifiability import EXACT
 from pysim.identify.greybox.optimiser import Bounds, Proposal, State
@@ -244,6 +243,8 @@ def damped_step(triangle: Array, right: Array, damping: float, low: Array, high:
     free = np.linalg.lstsq(matrix, longer, rcond=None)[0]
     if np.all(free >= low) and np.all(free <= high):
         return np.asarray(free)
+    from scipy.optimize import lsq_linear  # 0.3 s to import, where a bound is met
+
     with np.errstate(divide="ignore", invalid="ignore"):  # of itself it ends after n exchanges, wherever that is
         found = lsq_linear(matrix, longer, (low, high), method="bvls", tol=1e-14, max_iter=100 * n).x
     if not np.all(np.isfinite(found)):  # where it steps on a bound that a rounding has put it beyond

@@ -69,6 +69,13 @@ def test_the_native_compiler_stays_out_of_this_process(file):
     assert {name for name in sys.modules if name.split(".")[0] == "rumoca"} == loaded
 
 
+def test_a_notebook_that_is_installed_is_not_waited_for(file, tmp_path, monkeypatch):
+    """rumoca loads IPython where it finds it: as much time as it takes to start and to compile a small model."""
+    (tmp_path / "IPython.py").write_text("raise SystemExit('it was loaded')", encoding="utf-8")
+    monkeypatch.syspath_prepend(tmp_path)
+    assert load("M", [file]).name == "M"
+
+
 def test_only_libraries_that_are_named_are_read(file, tmp_path, monkeypatch):
     """What lies on MODELICAPATH is no part of the key under which the FMU is kept."""
     library = tmp_path / "path" / "Foo"

@@ -63,6 +63,18 @@ def test_all_classes_and_those_of_files_that_hold_a_word(library: Path, tmp_path
     assert [one.full_name for one in Libraries([library, other]).classes("Own")] == ["Own"]
 
 
+def test_a_class_inside_one_is_found_in_whichever_library_of_that_name_has_it(tmp_path: Path) -> None:
+    for folder, inner in (("first", ""), ("second", "model Y end Y;")):
+        (tmp_path / folder / "L").mkdir(parents=True)
+        (tmp_path / folder / "L" / "package.mo").write_text("package L end L;")
+        (tmp_path / folder / "L" / "X.mo").write_text(f"within L; model X {inner} end X;")
+    both = Libraries([tmp_path / "first" / "L", tmp_path / "second" / "L"])
+    for libraries, found in ((both, True), (Libraries(both.places[:1]), False), (Libraries(both.places[1:]), True)):
+        assert libraries.full("L.X") is not None
+        assert (libraries.full("L.X.Y") is not None) is found
+        assert libraries.full("L.X.Z") is None
+
+
 def test_a_class_that_is_not_there_is_said_with_what_is_near(library: Path, tmp_path: Path) -> None:
     with pytest.raises(TextError, match=r"package\.mo: class Lib\.Subb is not here: there is no Subb; near it: Sub"):
         Libraries([library]).find("Lib.Subb")

@@ -137,10 +137,11 @@ def _component_name(component: Mapping[str, Any]) -> str:
 
 def _walk(tree: Any) -> Iterator[Mapping[str, Any]]:
     """Every mapping inside, in written order."""
-    if isinstance(tree, Mapping):
-        yield tree
-        for value in tree.values():
-            yield from _walk(value)
-    elif isinstance(tree, list):
-        for value in tree:
-            yield from _walk(value)
+    waiting = [tree]
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, dict):
+            yield node
+            waiting += reversed(node.values())
+        elif isinstance(node, list):
+            waiting += reversed(node)
