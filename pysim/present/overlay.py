@@ -1,31 +1,44 @@
-"""One log beside several models: measured and simulated, and what each model leaves."""
+"""A log beside models: measured and simulated, and below it what each model leaves; and where a model fails."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from pysim.identify import HALF_95
 from pysim.io import shown_unit
-from pysim.present.style import BAND, COLOURS, DASHES, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.present import style
 from pysim.types import BadInput, RecordFit
 from pysim.types.answer import Failure
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from matplotlib.lines import Line2D
 
+_MANY = 5000  # samples beyond which lines are drawn as pixels
+_SMOOTH = 5  # samples of the running mean that shows what of a residual is more than noise
+_COARSE = 100  # samples up to which a residual needs no running mean
 _WORST = 12  # regions that are drawn
 
 
+class Side(NamedTuple):
+    """A model beside a log: its name, words for the legend, and the colour and dash of its lines."""
+
+    name: str
+    words: str
+    record: RecordFit
+    look: Mapping[str, Any]
+
+
 def logs_figure(beside: Mapping[str, RecordFit]) -> Figure:
-    """A column a signal: measured and simulated above, the residuals in standard deviations of the noise below.
+    """One log beside some models.
 
     The legend tells each model's fit in percent, 100 (1 - |measured - simulated| / |measured - its mean|), signal by
-    signal; grey holds 95 percent of noise.
+    signal.
 
     Args:
         beside: name of a model -> the same log beside it.
@@ -34,38 +47,58 @@ def logs_figure(beside: Mapping[str, RecordFit]) -> Figure:
     """
     if not beside:
         raise BadInput("overlay: name at least one model")
-    first = next(iter(beside.values()))
-    names = first.measured.names
-    figure = new_figure(1.2 + 4.6 * max(len(names), 1.4), 4.8)
-    axes = figure.subplots(2, len(names), sharex=True, squeeze=False, height_ratios=(3, 2))
-    handles, labels = [], []
-    for j, name in enumerate(names):
-        unit, factor = shown_unit(first.measured.units[j])
-        top, low = axes[0, j], axes[1, j]
-        (dots,) = top.plot(
-            first.measured.time, factor * first.measured.values[:, j], ".", color=MEASURED, markersize=2.4,
-            rasterized=True,
-        )  # fmt: skip
-        lines = [_model(top, low, record, j, factor, k) for k, record in enumerate(beside.values())]
-        low.axhspan(-HALF_95, HALF_95, color=BAND, linewidth=0, zorder=0)
-        top.set_ylabel(f"{name} ({unit})", fontsize=TEXT)
-        low.set_ylabel("Residual over noise (-)", fontsize=TEXT)
-        low.set_xlabel("Time (s)", fontsize=TEXT)
-        quiet(top)
-        quiet(low)
-        if j == 0:
-            handles, labels = [dots, *lines], ["measured", *(f"{n}: {_percent(r)}" for n, r in beside.items())]
-    legend_above(figure, handles, labels)
+    named = enumerate(beside.items())
+    return beside_figure([Side(n, f"{n}: {_percent(r)}", r, style.look(k, "linestyle")) for k, (n, r) in named])
+
+
+def beside_figure(sides: Sequence[Side], part: slice = slice(None), *, hidden: Sequence[str] = ()) -> Figure:
+    """A column a signal: measured and simulated above, the residuals in standard deviations of the noise below.
+
+    Of many samples running means are drawn as well; grey holds 95 percent of noise alone.
+
+    Args:
+        sides: at least one, of the same log.
+        part: samples that are shown.
+        hidden: names of models whose residual is not drawn.
+    """
+    names = sides[0].record.measured.names
+    width = 1.2 + 4.6 * max(len(names), 1.4)
+    figure, axes = style.panels(width, 4.8, 2, len(names), sharex=True, height_ratios=(3, 2))
+    for j in range(len(names)):
+        handles = _signal(axes[0, j], sides, j, part)
+        _residual(axes[1, j], [one for one in sides if one.name not in hidden], j, part)
+    style.legend_above(figure, handles, ["measured", *(one.words for one in sides)])
     return figure
 
 
-def _model(top: Axes, low: Axes, record: RecordFit, j: int, factor: float, k: int) -> Line2D:
-    colour, dash = COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)]
-    (line,) = top.plot(
-        record.simulated.time, factor * record.simulated.values[:, j], color=colour, linestyle=dash, linewidth=1.5
-    )
-    low.plot(record.residual.time, record.residual.values[:, j], color=colour, linewidth=0.9, alpha=0.8)
-    return line
+def _signal(axes: Axes, sides: Sequence[Side], j: int, part: slice) -> list[Artist]:
+    measured = sides[0].record.measured
+    time, (unit, factor) = measured.time[part], shown_unit(measured.units[j])
+    dots: dict[str, Any] = {"color": style.MEASURED, "markersize": 2.4, "rasterized": True}
+    handles: list[Artist] = [*axes.plot(time, factor * measured.values[part, j], ".", **dots)]
+    for one in sides:
+        simulated = one.record.simulated
+        more = {**one.look, "linewidth": 1.5, "rasterized": time.size > _MANY}
+        handles += axes.plot(simulated.time[part], factor * simulated.values[part, j], **more)
+    axes.set_ylabel(f"{measured.names[j]} ({unit})")
+    return handles
+
+
+def _residual(axes: Axes, sides: Sequence[Side], j: int, part: slice) -> None:
+    axes.axhspan(-HALF_95, HALF_95, color=style.BAND, linewidth=0)
+    words = []
+    for one in sides:
+        residual, colour = one.record.residual, one.look["color"]
+        time, values = residual.time[part], residual.values[part, j]
+        look = {"color": colour, "linewidth": 1.4, "rasterized": time.size > _MANY}
+        if values.size > _COARSE:
+            axes.plot(time, values, ".", color=colour, markersize=1.6, alpha=0.5, rasterized=True)
+            values = np.convolve(values, np.ones(_SMOOTH) / _SMOOTH, mode="valid")
+            time = time[_SMOOTH // 2 : _SMOOTH // 2 + values.size]
+        axes.plot(time, values, **look)
+        words.append(f"{one.name} {math.sqrt(float(np.mean(residual.values[:, j] ** 2))):.2f}")
+    axes.set_title(f"rms of the whole record: {', '.join(words)}", fontsize=style.SMALL, loc="left", color="#444444")
+    axes.set(xlabel="Time (s)", ylabel="Residual over noise (-)")
 
 
 def _percent(record: RecordFit) -> str:
@@ -83,14 +116,12 @@ def regions_figure(failures: Sequence[Failure]) -> Figure:
     """
     if not failures:
         raise BadInput("regions: no log over time was compared, so there is nothing to draw")
-    rows = list(failures[:_WORST])
-    figure = new_figure(7.4, 0.9 + 0.27 * len(rows))
-    axes = figure.subplots()
-    places = np.arange(len(rows))
-    axes.barh(places, [one.error for one in rows], color=COLOURS[0], height=0.7)
-    axes.axvline(1.0, color=MEASURED, linewidth=0.9)
-    axes.set_yticks(places, [f"{one.record}, {one.signal}: {one.region}" for one in rows], fontsize=SMALL)
+    rows = failures[:_WORST]
+    figure, ((axes,),) = style.panels(7.4, 0.9 + 0.27 * len(rows))
+    axes.barh(range(len(rows)), [one.error for one in rows], color=style.COLOURS[0], height=0.7)
+    axes.axvline(1.0, color=style.MEASURED, linewidth=0.9)
+    names = [f"{one.record}, {one.signal}: {one.region}" for one in rows]
+    axes.set_yticks(range(len(rows)), names, fontsize=style.SMALL)
     axes.invert_yaxis()
-    axes.set_xlabel("Residual over noise (1: noise alone)", fontsize=TEXT)
-    quiet(axes)
+    axes.set_xlabel("Residual over noise (1: noise alone)")
     return figure
