@@ -127,7 +127,7 @@ class Effect(Shown):
         """
         from pysim.effects import law_constants, law_sketch
         from pysim.present import interactive as moving
-        from pysim.present.effect import sketch_figure
+        from pysim.present.model import sketch_figure
 
         drawn = None
         if self.filled is not None:

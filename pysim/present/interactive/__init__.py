@@ -3,8 +3,9 @@
 Colours are names such as "@ink", which the look of the page fills in.
 """
 
+from pysim.present.criteria import CRITERIA
 from pysim.present.interactive.bode import bode_figure
-from pysim.present.interactive.criteria import CRITERIA, criteria_figure
+from pysim.present.interactive.criteria import criteria_figure
 from pysim.present.interactive.error import error_figure
 from pysim.present.interactive.heat_map import correlation_figure, map_figure
 from pysim.present.interactive.law import law_figure

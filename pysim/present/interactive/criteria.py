@@ -6,12 +6,10 @@ import math
 from collections.abc import Mapping, Sequence
 from typing import Any
 
-from pysim.identify import FREQUENCY_CRITERIA
-from pysim.identify.accuracy import TIME_CRITERIA
+from pysim.present.criteria import CRITERIA
 from pysim.present.diagnosis.words import step_name
 from pysim.present.interactive.look import Figure, axis, figure, plain
 
-CRITERIA = {c.symbol: c for c in (*FREQUENCY_CRITERIA, *TIME_CRITERIA)}
 _LEAST = 1e-3  # share of a limit below which nobody looks
 # What is shown of a criterion: its colour by what is compared, its dash and mark by whether mean or maximum.
 _GROUPS = {"E_M": "@final", "E_P": "@base", "E_t": "@measured"}

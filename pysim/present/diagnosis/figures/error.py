@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.present import style
+from pysim.present.criteria import CRITERIA
 from pysim.present.diagnosis.levels import levels
 from pysim.present.diagnosis.words import candidates_shown, errors, size_text, step_name
 from pysim.present.notes import USES
@@ -19,7 +19,6 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_CRITERIA = {c.symbol: c for c in (*FREQUENCY_CRITERIA, *TIME_CRITERIA)}
 _PASS, _FAIL = "#14663a", "#b3261e"
 _ROWS = 14  # candidates shown
 
@@ -34,7 +33,7 @@ def error_figure(steps: Sequence[ErrorStep]) -> Figure:
     """
     if not steps:
         raise BadInput("error figure: needs at least one step")
-    symbols = [s for s in _CRITERIA if any(s in step.criteria for step in steps)]
+    symbols = [s for s in CRITERIA if any(s in step.criteria for step in steps)]
     width, height, ratios = max(6.6, 2.6 + 1.3 * len(steps)), 3.3 + 0.24 * len(symbols), [3.0]
     ratios += [0.3 + 0.27 * len(symbols)] if symbols else []
     figure, axes = style.panels(width, height, len(ratios), sharex=True, height_ratios=ratios)
@@ -92,7 +91,7 @@ def _criteria(axes: Axes, steps: Sequence[ErrorStep], symbols: Sequence[str]) ->
     axes.grid(False)
     for row, symbol in enumerate(symbols):
         for i, step in enumerate(steps):
-            value, limit = step.criteria.get(symbol), _CRITERIA[symbol].limit
+            value, limit = step.criteria.get(symbol), CRITERIA[symbol].limit
             if value is None:
                 continue
             met = value <= limit
@@ -102,7 +101,7 @@ def _criteria(axes: Axes, steps: Sequence[ErrorStep], symbols: Sequence[str]) ->
                 fontweight="normal" if met else "bold",
             )  # fmt: skip
     axes.set_ylim(len(symbols) - 0.4, -0.6)
-    axes.set_yticks(range(len(symbols)), [_limit(_CRITERIA[s]) for s in symbols], fontsize=style.SMALL)
+    axes.set_yticks(range(len(symbols)), [_limit(CRITERIA[s]) for s in symbols], fontsize=style.SMALL)
     axes.spines[:].set_visible(False)
     axes.tick_params(length=0, labelbottom=False)
     for row in range(len(symbols) + 1):
