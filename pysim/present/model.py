@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pysim.present import style
+from pysim.present.charts import Chart, axis, chart, plain
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from pysim.types import Effect, Model, Variable
 
 _ABREAST = 5  # slots in a row of a sketch
+_STROKES = ("@final", "@base", "@prior")  # of a law, in a chart
 
 
 @dataclass(frozen=True)
@@ -146,6 +148,35 @@ def sketch_figure(sketch: Sketch, name: str) -> Figure:
     axes.set_title(f"{name}: {sketch.words}", fontsize=style.TEXT)
     axes.set(xticks=[], yticks=[])
     return figure
+
+
+def sketch_chart(sketch: Sketch, name: str) -> Chart:
+    """The strokes of a law, without numbers."""
+    lines = [
+        {"x": list(x), "y": list(y), "mode": "lines", "line": {"color": _STROKES[k % len(_STROKES)], "width": 2.5}}
+        for k, (x, y) in enumerate(sketch.curves)
+    ]
+    quiet: dict[str, Any] = {"showticklabels": False}
+    title = f"{plain(name)}: {plain(sketch.words)}"
+    return chart(lines, xaxis=axis(**quiet), yaxis=axis(**quiet), title={"text": title}, showlegend=False)
+
+
+def model_chart(
+    title: str, inputs: Sequence[str], outputs: Sequence[str], inside: Sequence[str], slots: Sequence[str]
+) -> Chart:
+    """Inputs, a box with some lines, outputs, and the slots below."""
+    box = {"type": "rect", "x0": 0.3, "x1": 0.7, "y0": 0.35, "y1": 1, "line": {"color": "@ink", "width": 1.2}}
+    columns = [(0.28, inputs, " →", "right"), (0.5, inside, "", "center"), (0.72, outputs, "", "left")]
+    notes = [_words(x, 0.67, [f"{one}{end}" for one in names], side) for x, names, end, side in columns if names]
+    for k, one in enumerate(slots):
+        at = _words((k + 0.5) / len(slots), 0.15, one.splitlines(), "center")
+        notes.append({**at, "bordercolor": "@line", "borderwidth": 1, "borderpad": 6})
+    hidden = {"visible": False, "range": [0, 1]}
+    return chart([], shapes=[box], annotations=notes, xaxis=hidden, yaxis=hidden, title={"text": plain(title)})
+
+
+def _words(x: float, y: float, lines: Sequence[str], side: str) -> dict[str, Any]:
+    return {"x": x, "y": y, "xanchor": side, "text": "<br>".join(map(plain, lines)), "showarrow": False}
 
 
 def _of(model: Model, causality: str) -> list[Variable]:

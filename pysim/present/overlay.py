@@ -11,7 +11,8 @@ import numpy as np
 from pysim.identify import HALF_95
 from pysim.io import shown_unit
 from pysim.present import style
-from pysim.types import BadInput, RecordFit
+from pysim.present.charts import LOOKS, Chart, axis, chart, level_band, plain, unit_text
+from pysim.types import BadInput, Record, RecordFit
 from pysim.types.answer import Failure
 
 if TYPE_CHECKING:
@@ -23,6 +24,7 @@ _MANY = 5000  # samples beyond which lines are drawn as pixels
 _SMOOTH = 5  # samples of the running mean that shows what of a residual is more than noise
 _COARSE = 100  # samples up to which a residual needs no running mean
 _WORST = 12  # regions that are drawn
+_MODELS = ("last", "refit", "prior")  # keys of LOOKS, in the order in which models are given
 
 
 class Side(NamedTuple):
@@ -125,3 +127,109 @@ def regions_figure(failures: Sequence[Failure]) -> Figure:
     axes.invert_yaxis()
     axes.set_xlabel("Residual over noise (1: noise alone)")
     return figure
+
+
+def overlay_chart(
+    names: Sequence[str], units: Sequence[str], models: Sequence[tuple[str, str]], traces: Sequence[Mapping[str, Any]]
+) -> Chart:
+    """Each signal as measured and as the models have it, what each leaves below; all panels share the time axis.
+
+    Args:
+        names, units: of the signals.
+        models: key of LOOKS and words of each model.
+        traces: as `signal_traces` gives them.
+    """
+    layout: dict[str, Any] = {"xaxis": axis("Time (s)", showgrid=True)}
+    heights = [weight for _ in names for weight in ((3.0, 1.6) if models else (3.0,))]
+    gap = 0.045
+    free, top = 1.0 - gap * (len(heights) - 1), 1.0
+    for k, weight in enumerate(heights):
+        size = free * weight / sum(heights)
+        name = names[k // 2] if models else names[k]
+        unit = units[k // 2] if models else units[k]
+        residual = bool(models) and k % 2 == 1
+        title = "left over<br>(noise s.d.)" if residual else f"{plain(name)} ({unit_text(unit)})"
+        low = max(top - size, 0.0)
+        layout[f"yaxis{k + 1 if k else ''}"] = axis(title, domain=[low, top], anchor="x")
+        top -= size + gap
+    last = len(heights)
+    layout["xaxis"]["anchor"] = f"y{last}" if last > 1 else "y"
+    bands = [level_band(-HALF_95, HALF_95, yref=f"y{2 * k + 2}") for k in range(len(names) if models else 0)]
+    return chart(traces, **layout, shapes=bands, dragmode="zoom", margin={"l": 74, "r": 18, "t": 30, "b": 46})
+
+
+def signal_trace(key: str, words: str, panel: int, x: Any, y: Any, *, legend: bool, unit: str = "") -> dict[str, Any]:
+    """One line of an overlay.
+
+    Args:
+        key: of LOOKS.
+        panel: from 1, from above.
+    """
+    _, colour, dash = LOOKS[key]
+    look = {"color": colour, "width": 1.4 if key == "measured" else 1.8, "dash": dash}
+    hover = f"{plain(words)}: %{{y:.4g}} {unit_text(unit)} at %{{x:.4g}} s<extra></extra>"
+    place = {"xaxis": "x", "yaxis": f"y{panel}" if panel > 1 else "y"}
+    return {"type": "scatter", "mode": "lines", "x": x, "y": y, "name": plain(words), "line": look, **place} | {
+        "legendgroup": key, "showlegend": legend, "hovertemplate": hover,
+    }  # fmt: skip
+
+
+def lines_chart(records: Mapping[str, Record]) -> Chart:
+    """A panel per signal and a line per record.
+
+    Args:
+        records: by name.
+    Raises:
+        BadInput: nothing to draw.
+    """
+    units = {n: unit for one in records.values() for n, unit in zip(one.names, one.units, strict=True)}
+    if not units:
+        raise BadInput("nothing to draw: there is no log over time")
+    shown = {name: shown_unit(unit) for name, unit in units.items()}
+    traces = []
+    for k, (words, one) in enumerate(records.items()):
+        for name in one.names:
+            (unit, factor), panel = shown[name], list(units).index(name) + 1
+            key = list(LOOKS)[k % len(LOOKS)]
+            traces.append(_line(key, words, panel, one.time, factor * one[name], name == one.names[0], unit))
+    return overlay_chart(list(units), [unit for unit, _ in shown.values()], [], traces)
+
+
+def beside_chart(beside: Mapping[str, RecordFit]) -> Chart:
+    """One log, measured and as each model has it, and below it what each leaves.
+
+    Args:
+        beside: name of a model -> the log beside it.
+    """
+    first = next(iter(beside.values())).measured
+    shown = [shown_unit(unit) for unit in first.units]
+    keys = {name: _MODELS[k % len(_MODELS)] for k, name in enumerate(beside)}
+    traces = []
+    for j, (unit, factor) in enumerate(shown):
+        at = 2 * j + 1
+        traces.append(_line("measured", "measured", at, first.time, factor * first.values[:, j], j == 0, unit))
+        for name, one in beside.items():
+            y = factor * one.simulated.values[:, j]
+            words = f"{name}: fit {one.fit_percent[first.names[j]]:.1f} %"
+            traces.append(_line(keys[name], words, at, one.simulated.time, y, j == 0, unit))
+            left, unit_left = one.residual.values[:, j], "times the noise"
+            traces.append(_line(keys[name], name, at + 1, one.residual.time, left, False, unit_left))
+    models = [(key, name) for name, key in keys.items()]
+    return overlay_chart(first.names, [unit for unit, _ in shown], models, traces)
+
+
+def _line(key: str, words: str, panel: int, x: Any, y: Any, legend: bool, unit: str) -> dict[str, Any]:
+    return signal_trace(key, words, panel, x.tolist(), y.tolist(), legend=legend, unit=unit) | {"legendgroup": words}
+
+
+def regions_chart(failures: Sequence[Failure]) -> Chart:
+    """Where a model fails, the worst regions above, with their residual over noise."""
+    worst = failures[:_WORST]
+    names = [plain(f"{one.record}, {one.signal}: {one.region}") for one in worst]
+    bars = {"type": "bar", "orientation": "h", "x": [one.error for one in worst], "y": names}
+    return chart(
+        [{**bars, "marker": {"color": "@final"}}],
+        xaxis=axis("Residual over noise (1: noise alone)"),
+        yaxis=axis(type="category", autorange="reversed", ticksuffix="  "),
+        showlegend=False,
+    )

@@ -11,6 +11,7 @@ import numpy as np
 from pysim.identify import HALF_95
 from pysim.io import shown_unit, shown_value
 from pysim.present import style
+from pysim.present.charts import Chart, axis, heat_map
 from pysim.present.fit.answer import Fitted
 from pysim.present.overlay import Side, beside_figure
 from pysim.present.parameters import AFTER, START, between_bounds, parameters_legend
@@ -143,3 +144,12 @@ def fit_correlation_figure(fit: Fit) -> Figure:
 
         style.legend_above(figure, [Patch(color=style.BAND)], ["not determined, or at a bound"])
     return figure
+
+
+def fit_correlation_chart(names: Sequence[str], matrix: Sequence[Sequence[float | None]]) -> Chart:
+    """The same as a chart; an empty cell where the data determine none."""
+    shown = [[None if v is None or np.isnan(v) else v for v in row] for row in matrix]
+    text = [["" if v is None else f"{v:.2f}" for v in row] for row in shown]
+    colours = {"zmin": -1, "zmax": 1, "colorscale": "RdBu", "reversescale": True}
+    hover = {"hovertemplate": "%{y}, %{x}: %{z:.3f}<extra></extra>"}
+    return heat_map(names, names, shown, text, axis(type="category", showgrid=False), {**colours, **hover})

@@ -41,7 +41,10 @@ def test_long_logs_are_drawn_as_pixels() -> None:
         for log in (record.measured, record.simulated)
     )
     for one, pixels in ((replace(record, measured=measured, simulated=simulated), True), (record, False)):
-        assert [line.get_rasterized() for line in fit_record_figure(one).axes[0].lines] == [True, pixels]  # measured, fitted
+        assert [line.get_rasterized() for line in fit_record_figure(one).axes[0].lines] == [
+            True,
+            pixels,
+        ]  # measured, fitted
 
 
 def test_pictures_of_records_are_in_units_that_people_read() -> None:
