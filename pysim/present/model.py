@@ -135,6 +135,24 @@ def model_figure(
     return figure
 
 
+def model_chart(
+    title: str, inputs: Sequence[str], outputs: Sequence[str], inside: Sequence[str], slots: Sequence[str]
+) -> Chart:
+    """Inputs, a box with some lines, outputs, and the slots below."""
+    box = {"type": "rect", "x0": 0.3, "x1": 0.7, "y0": 0.35, "y1": 1, "line": {"color": "@ink", "width": 1.2}}
+    columns = [(0.28, inputs, " →", "right"), (0.5, inside, "", "center"), (0.72, outputs, "", "left")]
+    notes = [_words(x, 0.67, [f"{one}{end}" for one in names], side) for x, names, end, side in columns if names]
+    for k, one in enumerate(slots):
+        at = _words((k + 0.5) / len(slots), 0.15, one.splitlines(), "center")
+        notes.append({**at, "bordercolor": "@line", "borderwidth": 1, "borderpad": 6})
+    hidden = {"visible": False, "range": [0, 1]}
+    return chart([], shapes=[box], annotations=notes, xaxis=hidden, yaxis=hidden, title={"text": plain(title)})
+
+
+def _words(x: float, y: float, lines: Sequence[str], side: str) -> dict[str, Any]:
+    return {"x": x, "y": y, "xanchor": side, "text": "<br>".join(map(plain, lines)), "showarrow": False}
+
+
 def sketch_figure(sketch: Sketch, name: str) -> Figure:
     """The strokes of a law: its curve, some curves of a family, or a wave and the answer to it.
 
@@ -159,24 +177,6 @@ def sketch_chart(sketch: Sketch, name: str) -> Chart:
     quiet: dict[str, Any] = {"showticklabels": False}
     title = f"{plain(name)}: {plain(sketch.words)}"
     return chart(lines, xaxis=axis(**quiet), yaxis=axis(**quiet), title={"text": title}, showlegend=False)
-
-
-def model_chart(
-    title: str, inputs: Sequence[str], outputs: Sequence[str], inside: Sequence[str], slots: Sequence[str]
-) -> Chart:
-    """Inputs, a box with some lines, outputs, and the slots below."""
-    box = {"type": "rect", "x0": 0.3, "x1": 0.7, "y0": 0.35, "y1": 1, "line": {"color": "@ink", "width": 1.2}}
-    columns = [(0.28, inputs, " →", "right"), (0.5, inside, "", "center"), (0.72, outputs, "", "left")]
-    notes = [_words(x, 0.67, [f"{one}{end}" for one in names], side) for x, names, end, side in columns if names]
-    for k, one in enumerate(slots):
-        at = _words((k + 0.5) / len(slots), 0.15, one.splitlines(), "center")
-        notes.append({**at, "bordercolor": "@line", "borderwidth": 1, "borderpad": 6})
-    hidden = {"visible": False, "range": [0, 1]}
-    return chart([], shapes=[box], annotations=notes, xaxis=hidden, yaxis=hidden, title={"text": plain(title)})
-
-
-def _words(x: float, y: float, lines: Sequence[str], side: str) -> dict[str, Any]:
-    return {"x": x, "y": y, "xanchor": side, "text": "<br>".join(map(plain, lines)), "showarrow": False}
 
 
 def _of(model: Model, causality: str) -> list[Variable]:

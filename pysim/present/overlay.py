@@ -1,4 +1,4 @@
-"""A log beside models: measured and simulated, and below it what each model leaves; and where a model fails."""
+"""Records over time: laid over each other; a log beside models, and below it what each leaves; where a model fails."""
 
 from __future__ import annotations
 
@@ -110,23 +110,79 @@ def _percent(record: RecordFit) -> str:
     return "fit " + ", ".join(f"{name} {value:.1f} %" for name, value in fits.items())
 
 
-def regions_figure(failures: Sequence[Failure]) -> Figure:
-    """Where a model fails, the worst regions above, with their residual in standard deviations of the noise.
+def beside_chart(beside: Mapping[str, RecordFit]) -> Chart:
+    """One log, measured and as each model has it, and below it what each leaves.
 
-    Raises:
-        BadInput: no log was compared.
+    Args:
+        beside: name of a model -> the log beside it.
     """
-    if not failures:
-        raise BadInput("regions: no log over time was compared, so there is nothing to draw")
-    rows = failures[:_WORST]
-    figure, ((axes,),) = style.panels(7.4, 0.9 + 0.27 * len(rows))
-    axes.barh(range(len(rows)), [one.error for one in rows], color=style.COLOURS[0], height=0.7)
-    axes.axvline(1.0, color=style.MEASURED, linewidth=0.9)
-    names = [f"{one.record}, {one.signal}: {one.region}" for one in rows]
-    axes.set_yticks(range(len(rows)), names, fontsize=style.SMALL)
-    axes.invert_yaxis()
-    axes.set_xlabel("Residual over noise (1: noise alone)")
+    first = next(iter(beside.values())).measured
+    shown = [shown_unit(unit) for unit in first.units]
+    keys = {name: _MODELS[k % len(_MODELS)] for k, name in enumerate(beside)}
+    traces = []
+    for j, (unit, factor) in enumerate(shown):
+        at = 2 * j + 1
+        traces.append(_line("measured", "measured", at, first.time, factor * first.values[:, j], j == 0, unit))
+        for name, one in beside.items():
+            y = factor * one.simulated.values[:, j]
+            words = f"{name}: fit {one.fit_percent[first.names[j]]:.1f} %"
+            traces.append(_line(keys[name], words, at, one.simulated.time, y, j == 0, unit))
+            left, unit_left = one.residual.values[:, j], "times the noise"
+            traces.append(_line(keys[name], name, at + 1, one.residual.time, left, False, unit_left))
+    models = [(key, name) for name, key in keys.items()]
+    return overlay_chart(first.names, [unit for unit, _ in shown], models, traces)
+
+
+def time_response_figure(records: Mapping[str, Record], signals: Sequence[str]) -> Figure:
+    """A panel per signal with every record laid over the others, the first one as the reference in black.
+
+    Args:
+        records: label -> record; each has all signals.
+        signals: names, from top to bottom; pressures are drawn in bar, lengths in mm, angles in degrees,
+            speeds in rpm or mm/s.
+    Raises:
+        BadInput: no record, no signal, or a record without one of them.
+    """
+    if not records or not signals:
+        raise BadInput("time response figure: needs at least one record and one signal")
+    figure, grid = style.panels(8.0, 0.9 + 1.7 * len(signals), len(signals), sharex=True)
+    axes, handles = grid[:, 0], []
+    for i, record in enumerate(records.values()):
+        colour = style.MEASURED if i == 0 else style.COLOURS[(i - 1) % len(style.COLOURS)]
+        for panel, name in zip(axes, signals, strict=True):
+            unit, factor = shown_unit(record.units[record.names.index(name)] if name in record.names else "1")
+            dash = "-" if i == 0 else style.DASHES[i % len(style.DASHES)]
+            (line,) = panel.plot(record.time, factor * record[name], color=colour, linestyle=dash, linewidth=1.3)
+            panel.set_ylabel(f"{name} ({unit})")
+        handles.append(line)
+    axes[-1].set_xlabel("Time (s)")
+    style.legend_above(figure, handles, list(records))
     return figure
+
+
+def lines_chart(records: Mapping[str, Record]) -> Chart:
+    """A panel per signal and a line per record.
+
+    Args:
+        records: by name.
+    Raises:
+        BadInput: nothing to draw.
+    """
+    units = {n: unit for one in records.values() for n, unit in zip(one.names, one.units, strict=True)}
+    if not units:
+        raise BadInput("nothing to draw: there is no log over time")
+    shown = {name: shown_unit(unit) for name, unit in units.items()}
+    traces = []
+    for k, (words, one) in enumerate(records.items()):
+        for name in one.names:
+            (unit, factor), panel = shown[name], list(units).index(name) + 1
+            key = list(LOOKS)[k % len(LOOKS)]
+            traces.append(_line(key, words, panel, one.time, factor * one[name], name == one.names[0], unit))
+    return overlay_chart(list(units), [unit for unit, _ in shown.values()], [], traces)
+
+
+def _line(key: str, words: str, panel: int, x: Any, y: Any, legend: bool, unit: str) -> dict[str, Any]:
+    return signal_trace(key, words, panel, x.tolist(), y.tolist(), legend=legend, unit=unit) | {"legendgroup": words}
 
 
 def overlay_chart(
@@ -174,52 +230,23 @@ def signal_trace(key: str, words: str, panel: int, x: Any, y: Any, *, legend: bo
     }  # fmt: skip
 
 
-def lines_chart(records: Mapping[str, Record]) -> Chart:
-    """A panel per signal and a line per record.
+def regions_figure(failures: Sequence[Failure]) -> Figure:
+    """Where a model fails, the worst regions above, with their residual in standard deviations of the noise.
 
-    Args:
-        records: by name.
     Raises:
-        BadInput: nothing to draw.
+        BadInput: no log was compared.
     """
-    units = {n: unit for one in records.values() for n, unit in zip(one.names, one.units, strict=True)}
-    if not units:
-        raise BadInput("nothing to draw: there is no log over time")
-    shown = {name: shown_unit(unit) for name, unit in units.items()}
-    traces = []
-    for k, (words, one) in enumerate(records.items()):
-        for name in one.names:
-            (unit, factor), panel = shown[name], list(units).index(name) + 1
-            key = list(LOOKS)[k % len(LOOKS)]
-            traces.append(_line(key, words, panel, one.time, factor * one[name], name == one.names[0], unit))
-    return overlay_chart(list(units), [unit for unit, _ in shown.values()], [], traces)
-
-
-def beside_chart(beside: Mapping[str, RecordFit]) -> Chart:
-    """One log, measured and as each model has it, and below it what each leaves.
-
-    Args:
-        beside: name of a model -> the log beside it.
-    """
-    first = next(iter(beside.values())).measured
-    shown = [shown_unit(unit) for unit in first.units]
-    keys = {name: _MODELS[k % len(_MODELS)] for k, name in enumerate(beside)}
-    traces = []
-    for j, (unit, factor) in enumerate(shown):
-        at = 2 * j + 1
-        traces.append(_line("measured", "measured", at, first.time, factor * first.values[:, j], j == 0, unit))
-        for name, one in beside.items():
-            y = factor * one.simulated.values[:, j]
-            words = f"{name}: fit {one.fit_percent[first.names[j]]:.1f} %"
-            traces.append(_line(keys[name], words, at, one.simulated.time, y, j == 0, unit))
-            left, unit_left = one.residual.values[:, j], "times the noise"
-            traces.append(_line(keys[name], name, at + 1, one.residual.time, left, False, unit_left))
-    models = [(key, name) for name, key in keys.items()]
-    return overlay_chart(first.names, [unit for unit, _ in shown], models, traces)
-
-
-def _line(key: str, words: str, panel: int, x: Any, y: Any, legend: bool, unit: str) -> dict[str, Any]:
-    return signal_trace(key, words, panel, x.tolist(), y.tolist(), legend=legend, unit=unit) | {"legendgroup": words}
+    if not failures:
+        raise BadInput("regions: no log over time was compared, so there is nothing to draw")
+    rows = failures[:_WORST]
+    figure, ((axes,),) = style.panels(7.4, 0.9 + 0.27 * len(rows))
+    axes.barh(range(len(rows)), [one.error for one in rows], color=style.COLOURS[0], height=0.7)
+    axes.axvline(1.0, color=style.MEASURED, linewidth=0.9)
+    names = [f"{one.record}, {one.signal}: {one.region}" for one in rows]
+    axes.set_yticks(range(len(rows)), names, fontsize=style.SMALL)
+    axes.invert_yaxis()
+    axes.set_xlabel("Residual over noise (1: noise alone)")
+    return figure
 
 
 def regions_chart(failures: Sequence[Failure]) -> Chart:

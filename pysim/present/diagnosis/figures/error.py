@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+_LOW = 0.6  # of the smallest value: room for its number below the line
 _TICKS = tuple(digit * 10.0**power for power in range(-2, 7) for digit in (1, 2, 5))
 # Of a chart, by the use of logs: colour, dash and mark of its line, and where numbers stand that must not meet.
 _MOVING = (("@final", "solid", "circle"), ("@base", "dash", "square"), ("@measured", "dot", "diamond"))
@@ -49,7 +50,7 @@ def levels(steps: Sequence[ErrorStep]) -> Levels:
     """Of an error history; a use of which there are no logs has no line."""
     lines = {use: tuple(errors(step).get(use) for step in steps) for use in USES.values()}
     known = [value for values in lines.values() for value in values if value]
-    low, high = min([0.72, *(0.72 * v for v in known)]), max([1.6, *(1.7 * v for v in known)])
+    low, high = min([_LOW, *(_LOW * v for v in known)]), max([1.6, *(1.7 * v for v in known)])
     shown = {use: values for use, values in lines.items() if any(value is not None for value in values)}
     return Levels(shown, low, high, tuple(t for t in _TICKS if low <= t <= high))
 
