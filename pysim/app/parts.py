@@ -22,7 +22,7 @@ assert nicegui.elements.plotly
 
 
 class Chart(Element, component=str(_STATIC / "chart.js")):
-    """A figure of `pysim.present.interactive`.
+    """A chart of `pysim.present`.
 
     Args:
         figure: its data and layout.

@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from pysim.app.answers import Answer
 from pysim.app.decimate import decimated, window
 from pysim.io import shown_unit
-from pysim.present.interactive import LOOKS, Figure, overlay_figure, signal_trace
+from pysim.present.charts import LOOKS, Chart
+from pysim.present.overlay import overlay_chart, signal_trace
 from pysim.types import MeasuredRecord, Record
 
 Array = NDArray[np.float64]
@@ -63,7 +64,7 @@ class Overlay:
             ys.append(y.tolist())
         return xs, ys, exact
 
-    def figure(self) -> Figure:
+    def figure(self) -> Chart:
         """The whole record."""
         xs, ys, _ = self.samples(*self.span)
         seen: set[str] = set()
@@ -73,7 +74,7 @@ class Overlay:
                 signal_trace(line.key, line.words, line.panel, x, y, legend=line.key not in seen, unit=line.unit)
             )
             seen.add(line.key)
-        return overlay_figure(self.names, self.units, self.models, traces)
+        return overlay_chart(self.names, self.units, self.models, traces)
 
 
 def stage_keys(answer: Answer) -> list[tuple[str, str, Mapping[str, Any]]]:

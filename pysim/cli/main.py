@@ -15,7 +15,6 @@ from typing import NoReturn
 
 from pysim.cli.command import Command
 from pysim.cli.option import did_you_mean
-from pysim.cli.terminal import print_everything
 
 DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
 
@@ -48,6 +47,16 @@ def main(argv: Sequence[str] | None = None) -> int:
     except KeyboardInterrupt as stop:  # some options load libraries to say what they take
         return _stopped(stop)
     return _guarded(args)
+
+
+def print_everything() -> None:
+    """Let standard output replace what its encoding has no letters for: a pipe on Windows knows Latin letters only."""
+    if sys.stdout is None:  # closed; nothing else may be opened in its place, as all that is printed would go there
+        sys.stdout = os.fdopen(os.open(os.devnull, os.O_RDONLY), "w", closefd=False)
+    for stream in (sys.stdout, sys.stderr):
+        reconfigure = getattr(stream, "reconfigure", None)  # whatever stands in for it may have none
+        if reconfigure is not None and stream.errors == "strict":
+            reconfigure(errors="replace")
 
 
 class Parser(argparse.ArgumentParser):

@@ -156,13 +156,13 @@ def switch(flag: str, about: str) -> Option:
     return Option((flag,), about)
 
 
-def names(flag: str, about: str, *, required: bool = False) -> Option:
+def names(flag: str, about: str, metavar: str = "NAME,...", *, required: bool = False) -> Option:
     """Names with commas between them, or repeated; one within brackets, as in `x[1,2]`, belongs to the name."""
     key = flag.lstrip("-").replace("-", "_")
     return Option(
         (flag,),
         f"{about}; commas or repeat",
-        "NAME,...",
+        metavar,
         repeated=True,
         required=required,
         read=lambda given: names_of(given.typed[key]),

@@ -12,7 +12,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pysim.cli.option import Option, Role, argument, file, names, text
-from pysim.cli.option import names_of as names_of
 
 if TYPE_CHECKING:
     from pysim.cli.command import Given

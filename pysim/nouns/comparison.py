@@ -134,8 +134,8 @@ class Comparison(Shown):
             log: its name; by default a log that was held out, where the first model fails most.
             interactive: a Plotly figure in place of Matplotlib's.
         """
-        from pysim.present.interactive import as_plotly, beside_figure
-        from pysim.present.overlay import logs_figure
+        from pysim.present.charts import as_plotly
+        from pysim.present.overlay import beside_chart, logs_figure
 
         sources = {record.source for record in logs_called(self.dataset, log)} if log else set()
         first = [one for one in next(iter(self.records.values())) if one.source in sources or not log]
@@ -143,7 +143,7 @@ class Comparison(Shown):
             raise BadInput("nothing to draw: no such log over time was compared", argument="log")
         index = max(first, key=lambda one: (one.use != "fit", max(one.rms.values()))).index
         beside = {name: one for name, records in self.records.items() for one in records if one.index == index}
-        return as_plotly(beside_figure(beside)) if interactive else logs_figure(beside)
+        return as_plotly(beside_chart(beside)) if interactive else logs_figure(beside)
 
     @property
     def _tables(self) -> tuple[Table, ...]:

@@ -213,13 +213,14 @@ class Data(Shown):
         Args:
             interactive: a Plotly figure in place of Matplotlib's, with a panel per signal.
         """
+        from pysim.present.charts import as_plotly
         from pysim.present.data_check.figures import time_logs_figure
-        from pysim.present.interactive import as_plotly, lines_figure
+        from pysim.present.overlay import lines_chart
 
         if not interactive:
             return time_logs_figure(self.now)
         logs = zip(self.names, self.now.records, strict=True)
-        return as_plotly(lines_figure({name: one.data for name, one in logs if isinstance(one.data, Record)}))
+        return as_plotly(lines_chart({name: one.data for name, one in logs if isinstance(one.data, Record)}))
 
     def to_dataframe(self) -> Any:
         """A pandas.DataFrame over log and time in s, columns "x [mm]" in the units of the logs."""

@@ -218,11 +218,11 @@ class Diagnosis(Shown):
 
     def plot(self, *, interactive: bool = False) -> Any:
         """The error, step by step; a Plotly figure where `interactive`."""
-        from pysim.present import interactive as moving
-        from pysim.present.diagnosis import error_figure
+        from pysim.present.charts import as_plotly
+        from pysim.present.diagnosis.figures.error import error_chart, error_figure
 
         history = self.found.history
-        return moving.as_plotly(moving.error_figure(history)) if interactive else error_figure(history)
+        return as_plotly(error_chart(history)) if interactive else error_figure(history)
 
     def report(self, folder: Path | str) -> dict[str, Path]:
         """Write report.html with its pictures, the fitted values, and class and FMU where effects were added."""

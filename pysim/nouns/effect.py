@@ -126,8 +126,8 @@ class Effect(Shown):
             interactive: a Plotly figure in place of Matplotlib's.
         """
         from pysim.effects import law_constants, law_sketch
-        from pysim.present import interactive as moving
-        from pysim.present.effect import sketch_figure
+        from pysim.present.charts import as_plotly
+        from pysim.present.model import sketch_chart, sketch_figure
 
         drawn = None
         if self.filled is not None:
@@ -137,7 +137,7 @@ class Effect(Shown):
                 f"effect {self.name}: its law is more than a few strokes can show; simulate the model with it"
             )
         if interactive:
-            return moving.as_plotly(moving.sketch_figure(drawn, self.name))
+            return as_plotly(sketch_chart(drawn, self.name))
         return sketch_figure(drawn, self.name)
 
     def save(self, folder: Path | str) -> Path:

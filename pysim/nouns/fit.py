@@ -193,8 +193,9 @@ class Fit(Shown):
             interactive: a Plotly figure in place of Matplotlib's.
         """
         from pysim.nouns.comparison import Comparison
-        from pysim.present import interactive as moving
-        from pysim.present.fit import fit_correlation_figure, fit_parameters_figure
+        from pysim.present.charts import as_plotly
+        from pysim.present.fit.figures import fit_correlation_chart, fit_correlation_figure, fit_parameters_figure
+        from pysim.present.parameters import parameters_chart
 
         if what == "log":
             return Comparison({"fitted": self.found.records}, self.dataset).plot(log, interactive=interactive)
@@ -203,13 +204,13 @@ class Fit(Shown):
         if not interactive:
             return (fit_parameters_figure if what == "parameters" else fit_correlation_figure)(self.found)
         if what == "correlation":
-            found = moving.correlation_figure([*self.values], self.found.correlation.tolist())
+            found = fit_correlation_chart([*self.values], self.found.correlation.tolist())
         else:
             bounded = [e for e in self.found.estimates if math.isfinite(e.lower) and math.isfinite(e.upper)]
-            found = moving.parameters_figure([
+            found = parameters_chart([
                 {"name": e.name, "lower": e.lower, "upper": e.upper, "after": (e.value, *e.interval)} for e in bounded
             ])  # fmt: skip
-        return moving.as_plotly(found)
+        return as_plotly(found)
 
     def save(self, folder: Path | str) -> Path:
         """Keep the fit: measurements, FMU, what was asked and what was found. `Fit.load(folder)` gives it back.

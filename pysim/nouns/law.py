@@ -76,11 +76,11 @@ class Law(Shown):
 
     def plot(self, *, interactive: bool = False) -> Any:
         """The curve with its band, and where the data are; a Plotly figure of the curve where `interactive`."""
-        from pysim.present import interactive as moving
-        from pysim.present.diagnosis import law_figure
+        from pysim.present.charts import as_plotly
+        from pysim.present.diagnosis.figures.law import law_chart, law_figure
 
         if interactive:
-            return moving.as_plotly(moving.law_figure(law_data(self.found)))
+            return as_plotly(law_chart(law_data(self.found)))
         return law_figure(self.found, self.samples)
 
     def to_effect(self, name: str, *, description: str = "") -> Effect:

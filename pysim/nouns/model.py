@@ -506,8 +506,8 @@ class Model(Shown):
         Args:
             interactive: a Plotly figure in place of Matplotlib's.
         """
-        from pysim.present import interactive as moving
-        from pysim.present.model import model_figure
+        from pysim.present.charts import as_plotly
+        from pysim.present.model import model_chart, model_figure
 
         inputs, outputs = ([f"{v.name} [{v.unit}]" for v in self.compiled.variables if v.causality == causality]
                            for causality in ("input", "output"))  # fmt: skip
@@ -516,7 +516,7 @@ class Model(Shown):
         filled = {slot: [e.name for e in self.effects_in if e.slot == slot] for slot in self.slots["name"]}
         slots = ["\n".join([name, *(own or ["empty"])]) for name, own in filled.items()]
         if interactive:
-            return moving.as_plotly(moving.model_figure(self.name, inputs, outputs, inside, slots))
+            return as_plotly(model_chart(self.name, inputs, outputs, inside, slots))
         return model_figure(self.name, inputs, outputs, inside, slots)
 
     def to_dataframe(self) -> Any:

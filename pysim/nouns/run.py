@@ -54,10 +54,11 @@ class Run(Shown):
 
     def plot(self, *, interactive: bool = False) -> Any:
         """All columns over time, one panel a unit; a Plotly figure where `interactive`, one panel a column."""
+        from pysim.present.charts import as_plotly
         from pysim.present.cosim import cosim_figure
-        from pysim.present.interactive import as_plotly, lines_figure
+        from pysim.present.overlay import lines_chart
 
-        return as_plotly(lines_figure({self.name: self.record})) if interactive else cosim_figure(self.record)
+        return as_plotly(lines_chart({self.name: self.record})) if interactive else cosim_figure(self.record)
 
     def save(self, file: Path | str) -> Path:
         """Write it as .csv or .npz, by the name of the file."""

@@ -27,7 +27,7 @@ class Where(Shown):
 
     def plot(self, *, interactive: bool = False) -> Any:
         """The worst of them as bars; a Plotly figure where `interactive`."""
-        from pysim.present import interactive as moving
-        from pysim.present.overlay import regions_figure
+        from pysim.present.charts import as_plotly
+        from pysim.present.overlay import regions_chart, regions_figure
 
-        return moving.as_plotly(moving.regions_figure(self.failures)) if interactive else regions_figure(self.failures)
+        return as_plotly(regions_chart(self.failures)) if interactive else regions_figure(self.failures)

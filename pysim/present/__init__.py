@@ -11,7 +11,9 @@
 
 `style` and `page` give all of them one look, and cost no Matplotlib until a figure is made: figures are built from
 `style.new_figure`, and types of Matplotlib are imported for the type checker alone. `text`, `data` and `write_report`
-show any result: `report.VIEWS` says which file shows which type. `notes` has the words of every note.
+show any result: `report.VIEWS` says which file shows which type. `notes` has the words of every note. Where the
+workbench or a notebook shows the same thing, its chart, which moves and zooms, stands beside the figure: `charts` has
+what all of these share.
 """
 
 from pysim.present.render import Drawing, Picture, render

@@ -1,13 +1,14 @@
-"""The four numbers of thesis Table 1.3 beside each other: in text, in a table and as data."""
+"""The criteria of thesis Tables 1.3 and 1.4; the four numbers of Table 1.3 in text, in a table and as data."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
-from pysim.identify import FREQUENCY_CRITERIA
+from pysim.identify import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.present.page import Cell, cell
 from pysim.types import Deviation
 
+CRITERIA = {c.symbol: c for c in (*FREQUENCY_CRITERIA, *TIME_CRITERIA)}
 KEYS = ("mean_magnitude_db", "max_magnitude_db", "mean_phase_deg", "max_phase_deg")
 _DIGITS = (2, 2, 1, 1)
 

@@ -1,4 +1,4 @@
-"""What a model holds, shown: text and JSON."""
+"""What a model holds, shown: text and JSON; a model and the law of an effect as sketches."""
 
 from __future__ import annotations
 
@@ -7,13 +7,17 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from pysim.present import style
+from pysim.present.charts import Chart, axis, chart, plain
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from pysim.effects import Slot
+    from pysim.effects import Sketch, Slot
     from pysim.types import Effect, Model, Variable
 
 _ABREAST = 5  # slots in a row of a sketch
+_STROKES = ("@final", "@base", "@prior")  # of a law, in a chart
 
 
 @dataclass(frozen=True)
@@ -109,28 +113,70 @@ def model_figure(
     title: str, inputs: Sequence[str], outputs: Sequence[str], inside: Sequence[str], slots: Sequence[str]
 ) -> Figure:
     """A sketch: inputs into a box with some lines, outputs out of it, and boxes of its slots below."""
-    from pysim.present.style import LIMIT, SMALL, TEXT, new_figure
-
     tall = 0.2 * max(len(inputs), len(outputs), len(inside), 3)  # in
     below = 0.55 * -(-len(slots) // _ABREAST)
-    figure = new_figure(8.0, 0.6 + tall + below)
+    figure = style.new_figure(8.0, 0.6 + tall + below)
     axes = figure.subplots()
     axes.set(xlim=(0, 1), ylim=(-below / tall, 1))
-    axes.set_title(title, fontsize=TEXT)
+    axes.set_title(title, fontsize=style.TEXT)
     axes.axis("off")
     axes.plot([0.3, 0.7, 0.7, 0.3, 0.3], [0, 0, 1, 1, 0], color="black", linewidth=1.0, clip_on=False)
-    axes.text(0.5, 0.5, "\n".join(inside), ha="center", va="center", fontsize=SMALL)
+    axes.text(0.5, 0.5, "\n".join(inside), ha="center", va="center", fontsize=style.SMALL)
     for names, (near, far), at, side in ((inputs, (0.3, 0.25), 0.24, "right"), (outputs, (0.75, 0.7), 0.76, "left")):
         for k, name in enumerate(names):
             y = 1 - (k + 0.5) / len(names)
             axes.annotate("", (near, y), (far, y), arrowprops={"arrowstyle": "->"})
-            axes.text(at, y, name, ha=side, va="center", fontsize=SMALL)
-    frame = {"boxstyle": "square,pad=0.3", "facecolor": "white", "edgecolor": LIMIT}
+            axes.text(at, y, name, ha=side, va="center", fontsize=style.SMALL)
+    frame = {"boxstyle": "square,pad=0.3", "facecolor": "white", "edgecolor": style.LIMIT}
     for k, words in enumerate(slots):
         row, place = divmod(k, _ABREAST)
         at_x, at_y = (place + 0.5) / min(len(slots), _ABREAST), -(row + 0.6) * 0.55 / tall
-        axes.text(at_x, at_y, words, ha="center", va="center", fontsize=SMALL, bbox=frame)
+        axes.text(at_x, at_y, words, ha="center", va="center", fontsize=style.SMALL, bbox=frame)
     return figure
+
+
+def model_chart(
+    title: str, inputs: Sequence[str], outputs: Sequence[str], inside: Sequence[str], slots: Sequence[str]
+) -> Chart:
+    """Inputs, a box with some lines, outputs, and the slots below."""
+    box = {"type": "rect", "x0": 0.3, "x1": 0.7, "y0": 0.35, "y1": 1, "line": {"color": "@ink", "width": 1.2}}
+    columns = [(0.28, inputs, " →", "right"), (0.5, inside, "", "center"), (0.72, outputs, "", "left")]
+    notes = [_words(x, 0.67, [f"{one}{end}" for one in names], side) for x, names, end, side in columns if names]
+    for k, one in enumerate(slots):
+        at = _words((k + 0.5) / len(slots), 0.15, one.splitlines(), "center")
+        notes.append({**at, "bordercolor": "@line", "borderwidth": 1, "borderpad": 6})
+    hidden = {"visible": False, "range": [0, 1]}
+    return chart([], shapes=[box], annotations=notes, xaxis=hidden, yaxis=hidden, title={"text": plain(title)})
+
+
+def _words(x: float, y: float, lines: Sequence[str], side: str) -> dict[str, Any]:
+    return {"x": x, "y": y, "xanchor": side, "text": "<br>".join(map(plain, lines)), "showarrow": False}
+
+
+def sketch_figure(sketch: Sketch, name: str) -> Figure:
+    """The strokes of a law: its curve, some curves of a family, or a wave and the answer to it.
+
+    Args:
+        name: of the effect.
+    """
+    figure, ((axes,),) = style.panels(4.6, 3.4)
+    axes.axhline(0.0, color=style.LIMIT, linewidth=0.8)
+    for k, (x, y) in enumerate(sketch.curves):
+        axes.plot(x, y, **style.look(k, "linestyle"), linewidth=1.6)
+    axes.set_title(f"{name}: {sketch.words}", fontsize=style.TEXT)
+    axes.set(xticks=[], yticks=[])
+    return figure
+
+
+def sketch_chart(sketch: Sketch, name: str) -> Chart:
+    """The strokes of a law, without numbers."""
+    lines = [
+        {"x": list(x), "y": list(y), "mode": "lines", "line": {"color": _STROKES[k % len(_STROKES)], "width": 2.5}}
+        for k, (x, y) in enumerate(sketch.curves)
+    ]
+    quiet: dict[str, Any] = {"showticklabels": False}
+    title = f"{plain(name)}: {plain(sketch.words)}"
+    return chart(lines, xaxis=axis(**quiet), yaxis=axis(**quiet), title={"text": title}, showlegend=False)
 
 
 def _of(model: Model, causality: str) -> list[Variable]:

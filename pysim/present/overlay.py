@@ -1,31 +1,46 @@
-"""One log beside several models: measured and simulated, and what each model leaves."""
+"""Records over time: laid over each other; a log beside models, and below it what each leaves; where a model fails."""
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from pysim.identify import HALF_95
 from pysim.io import shown_unit
-from pysim.present.style import BAND, COLOURS, DASHES, MEASURED, SMALL, TEXT, legend_above, new_figure, quiet
-from pysim.types import BadInput, RecordFit
+from pysim.present import style
+from pysim.present.charts import LOOKS, Chart, axis, chart, level_band, plain, unit_text
+from pysim.types import BadInput, Record, RecordFit
 from pysim.types.answer import Failure
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
-    from matplotlib.lines import Line2D
 
+_MANY = 5000  # samples beyond which lines are drawn as pixels
+_SMOOTH = 5  # samples of the running mean that shows what of a residual is more than noise
+_COARSE = 100  # samples up to which a residual needs no running mean
 _WORST = 12  # regions that are drawn
+_MODELS = ("last", "refit", "prior")  # keys of LOOKS, in the order in which models are given
+
+
+class Side(NamedTuple):
+    """A model beside a log: its name, words for the legend, and the colour and dash of its lines."""
+
+    name: str
+    words: str
+    record: RecordFit
+    look: Mapping[str, Any]
 
 
 def logs_figure(beside: Mapping[str, RecordFit]) -> Figure:
-    """A column a signal: measured and simulated above, the residuals in standard deviations of the noise below.
+    """One log beside some models.
 
     The legend tells each model's fit in percent, 100 (1 - |measured - simulated| / |measured - its mean|), signal by
-    signal; grey holds 95 percent of noise.
+    signal.
 
     Args:
         beside: name of a model -> the same log beside it.
@@ -34,38 +49,58 @@ def logs_figure(beside: Mapping[str, RecordFit]) -> Figure:
     """
     if not beside:
         raise BadInput("overlay: name at least one model")
-    first = next(iter(beside.values()))
-    names = first.measured.names
-    figure = new_figure(1.2 + 4.6 * max(len(names), 1.4), 4.8)
-    axes = figure.subplots(2, len(names), sharex=True, squeeze=False, height_ratios=(3, 2))
-    handles, labels = [], []
-    for j, name in enumerate(names):
-        unit, factor = shown_unit(first.measured.units[j])
-        top, low = axes[0, j], axes[1, j]
-        (dots,) = top.plot(
-            first.measured.time, factor * first.measured.values[:, j], ".", color=MEASURED, markersize=2.4,
-            rasterized=True,
-        )  # fmt: skip
-        lines = [_model(top, low, record, j, factor, k) for k, record in enumerate(beside.values())]
-        low.axhspan(-HALF_95, HALF_95, color=BAND, linewidth=0, zorder=0)
-        top.set_ylabel(f"{name} ({unit})", fontsize=TEXT)
-        low.set_ylabel("Residual over noise (-)", fontsize=TEXT)
-        low.set_xlabel("Time (s)", fontsize=TEXT)
-        quiet(top)
-        quiet(low)
-        if j == 0:
-            handles, labels = [dots, *lines], ["measured", *(f"{n}: {_percent(r)}" for n, r in beside.items())]
-    legend_above(figure, handles, labels)
+    named = enumerate(beside.items())
+    return beside_figure([Side(n, f"{n}: {_percent(r)}", r, style.look(k, "linestyle")) for k, (n, r) in named])
+
+
+def beside_figure(sides: Sequence[Side], part: slice = slice(None), *, hidden: Sequence[str] = ()) -> Figure:
+    """A column a signal: measured and simulated above, the residuals in standard deviations of the noise below.
+
+    Of many samples running means are drawn as well; grey holds 95 percent of noise alone.
+
+    Args:
+        sides: at least one, of the same log.
+        part: samples that are shown.
+        hidden: names of models whose residual is not drawn.
+    """
+    names = sides[0].record.measured.names
+    width = 1.2 + 4.6 * max(len(names), 1.4)
+    figure, axes = style.panels(width, 4.8, 2, len(names), sharex=True, height_ratios=(3, 2))
+    for j in range(len(names)):
+        handles = _signal(axes[0, j], sides, j, part)
+        _residual(axes[1, j], [one for one in sides if one.name not in hidden], j, part)
+    style.legend_above(figure, handles, ["measured", *(one.words for one in sides)])
     return figure
 
 
-def _model(top: Axes, low: Axes, record: RecordFit, j: int, factor: float, k: int) -> Line2D:
-    colour, dash = COLOURS[k % len(COLOURS)], DASHES[k % len(DASHES)]
-    (line,) = top.plot(
-        record.simulated.time, factor * record.simulated.values[:, j], color=colour, linestyle=dash, linewidth=1.5
-    )
-    low.plot(record.residual.time, record.residual.values[:, j], color=colour, linewidth=0.9, alpha=0.8)
-    return line
+def _signal(axes: Axes, sides: Sequence[Side], j: int, part: slice) -> list[Artist]:
+    measured = sides[0].record.measured
+    time, (unit, factor) = measured.time[part], shown_unit(measured.units[j])
+    dots: dict[str, Any] = {"color": style.MEASURED, "markersize": 2.4, "rasterized": True}
+    handles: list[Artist] = [*axes.plot(time, factor * measured.values[part, j], ".", **dots)]
+    for one in sides:
+        simulated = one.record.simulated
+        more = {**one.look, "linewidth": 1.5, "rasterized": time.size > _MANY}
+        handles += axes.plot(simulated.time[part], factor * simulated.values[part, j], **more)
+    axes.set_ylabel(f"{measured.names[j]} ({unit})")
+    return handles
+
+
+def _residual(axes: Axes, sides: Sequence[Side], j: int, part: slice) -> None:
+    axes.axhspan(-HALF_95, HALF_95, color=style.BAND, linewidth=0)
+    words = []
+    for one in sides:
+        residual, colour = one.record.residual, one.look["color"]
+        time, values = residual.time[part], residual.values[part, j]
+        look = {"color": colour, "linewidth": 1.4, "rasterized": time.size > _MANY}
+        if values.size > _COARSE:
+            axes.plot(time, values, ".", color=colour, markersize=1.6, alpha=0.5, rasterized=True)
+            values = np.convolve(values, np.ones(_SMOOTH) / _SMOOTH, mode="valid")
+            time = time[_SMOOTH // 2 : _SMOOTH // 2 + values.size]
+        axes.plot(time, values, **look)
+        words.append(f"{one.name} {math.sqrt(float(np.mean(residual.values[:, j] ** 2))):.2f}")
+    axes.set_title(f"rms of the whole record: {', '.join(words)}", fontsize=style.SMALL, loc="left", color="#444444")
+    axes.set(xlabel="Time (s)", ylabel="Residual over noise (-)")
 
 
 def _percent(record: RecordFit) -> str:
@@ -73,6 +108,126 @@ def _percent(record: RecordFit) -> str:
     if len(fits) == 1:
         return f"fit {next(iter(fits.values())):.1f} %"
     return "fit " + ", ".join(f"{name} {value:.1f} %" for name, value in fits.items())
+
+
+def beside_chart(beside: Mapping[str, RecordFit]) -> Chart:
+    """One log, measured and as each model has it, and below it what each leaves.
+
+    Args:
+        beside: name of a model -> the log beside it.
+    """
+    first = next(iter(beside.values())).measured
+    shown = [shown_unit(unit) for unit in first.units]
+    keys = {name: _MODELS[k % len(_MODELS)] for k, name in enumerate(beside)}
+    traces = []
+    for j, (unit, factor) in enumerate(shown):
+        at = 2 * j + 1
+        traces.append(_line("measured", "measured", at, first.time, factor * first.values[:, j], j == 0, unit))
+        for name, one in beside.items():
+            y = factor * one.simulated.values[:, j]
+            words = f"{name}: fit {one.fit_percent[first.names[j]]:.1f} %"
+            traces.append(_line(keys[name], words, at, one.simulated.time, y, j == 0, unit))
+            left, unit_left = one.residual.values[:, j], "times the noise"
+            traces.append(_line(keys[name], name, at + 1, one.residual.time, left, False, unit_left))
+    models = [(key, name) for name, key in keys.items()]
+    return overlay_chart(first.names, [unit for unit, _ in shown], models, traces)
+
+
+def time_response_figure(records: Mapping[str, Record], signals: Sequence[str]) -> Figure:
+    """A panel per signal with every record laid over the others, the first one as the reference in black.
+
+    Args:
+        records: label -> record; each has all signals.
+        signals: names, from top to bottom; pressures are drawn in bar, lengths in mm, angles in degrees,
+            speeds in rpm or mm/s.
+    Raises:
+        BadInput: no record, no signal, or a record without one of them.
+    """
+    if not records or not signals:
+        raise BadInput("time response figure: needs at least one record and one signal")
+    figure, grid = style.panels(8.0, 0.9 + 1.7 * len(signals), len(signals), sharex=True)
+    axes, handles = grid[:, 0], []
+    for i, record in enumerate(records.values()):
+        colour = style.MEASURED if i == 0 else style.COLOURS[(i - 1) % len(style.COLOURS)]
+        for panel, name in zip(axes, signals, strict=True):
+            unit, factor = shown_unit(record.units[record.names.index(name)] if name in record.names else "1")
+            dash = "-" if i == 0 else style.DASHES[i % len(style.DASHES)]
+            (line,) = panel.plot(record.time, factor * record[name], color=colour, linestyle=dash, linewidth=1.3)
+            panel.set_ylabel(f"{name} ({unit})")
+        handles.append(line)
+    axes[-1].set_xlabel("Time (s)")
+    style.legend_above(figure, handles, list(records))
+    return figure
+
+
+def lines_chart(records: Mapping[str, Record]) -> Chart:
+    """A panel per signal and a line per record.
+
+    Args:
+        records: by name.
+    Raises:
+        BadInput: nothing to draw.
+    """
+    units = {n: unit for one in records.values() for n, unit in zip(one.names, one.units, strict=True)}
+    if not units:
+        raise BadInput("nothing to draw: there is no log over time")
+    shown = {name: shown_unit(unit) for name, unit in units.items()}
+    traces = []
+    for k, (words, one) in enumerate(records.items()):
+        for name in one.names:
+            (unit, factor), panel = shown[name], list(units).index(name) + 1
+            key = list(LOOKS)[k % len(LOOKS)]
+            traces.append(_line(key, words, panel, one.time, factor * one[name], name == one.names[0], unit))
+    return overlay_chart(list(units), [unit for unit, _ in shown.values()], [], traces)
+
+
+def _line(key: str, words: str, panel: int, x: Any, y: Any, legend: bool, unit: str) -> dict[str, Any]:
+    return signal_trace(key, words, panel, x.tolist(), y.tolist(), legend=legend, unit=unit) | {"legendgroup": words}
+
+
+def overlay_chart(
+    names: Sequence[str], units: Sequence[str], models: Sequence[tuple[str, str]], traces: Sequence[Mapping[str, Any]]
+) -> Chart:
+    """Each signal as measured and as the models have it, what each leaves below; all panels share the time axis.
+
+    Args:
+        names, units: of the signals.
+        models: key of LOOKS and words of each model.
+        traces: as `signal_traces` gives them.
+    """
+    layout: dict[str, Any] = {"xaxis": axis("Time (s)", showgrid=True)}
+    heights = [weight for _ in names for weight in ((3.0, 1.6) if models else (3.0,))]
+    gap = 0.045
+    free, top = 1.0 - gap * (len(heights) - 1), 1.0
+    for k, weight in enumerate(heights):
+        size = free * weight / sum(heights)
+        name = names[k // 2] if models else names[k]
+        unit = units[k // 2] if models else units[k]
+        residual = bool(models) and k % 2 == 1
+        title = "left over<br>(noise s.d.)" if residual else f"{plain(name)} ({unit_text(unit)})"
+        low = max(top - size, 0.0)
+        layout[f"yaxis{k + 1 if k else ''}"] = axis(title, domain=[low, top], anchor="x")
+        top -= size + gap
+    last = len(heights)
+    layout["xaxis"]["anchor"] = f"y{last}" if last > 1 else "y"
+    bands = [level_band(-HALF_95, HALF_95, yref=f"y{2 * k + 2}") for k in range(len(names) if models else 0)]
+    return chart(traces, **layout, shapes=bands, dragmode="zoom", margin={"l": 74, "r": 18, "t": 30, "b": 46})
+
+
+def signal_trace(key: str, words: str, panel: int, x: Any, y: Any, *, legend: bool, unit: str = "") -> dict[str, Any]:
+    """One line of an overlay.
+
+    Args:
+        key: of LOOKS.
+        panel: from 1, from above.
+    """
+    _, colour, dash = LOOKS[key]
+    look = {"color": colour, "width": 1.4 if key == "measured" else 1.8, "dash": dash}
+    hover = f"{plain(words)}: %{{y:.4g}} {unit_text(unit)} at %{{x:.4g}} s<extra></extra>"
+    place = {"xaxis": "x", "yaxis": f"y{panel}" if panel > 1 else "y"}
+    return {"type": "scatter", "mode": "lines", "x": x, "y": y, "name": plain(words), "line": look, **place} | {
+        "legendgroup": key, "showlegend": legend, "hovertemplate": hover,
+    }  # fmt: skip
 
 
 def regions_figure(failures: Sequence[Failure]) -> Figure:
@@ -83,14 +238,25 @@ def regions_figure(failures: Sequence[Failure]) -> Figure:
     """
     if not failures:
         raise BadInput("regions: no log over time was compared, so there is nothing to draw")
-    rows = list(failures[:_WORST])
-    figure = new_figure(7.4, 0.9 + 0.27 * len(rows))
-    axes = figure.subplots()
-    places = np.arange(len(rows))
-    axes.barh(places, [one.error for one in rows], color=COLOURS[0], height=0.7)
-    axes.axvline(1.0, color=MEASURED, linewidth=0.9)
-    axes.set_yticks(places, [f"{one.record}, {one.signal}: {one.region}" for one in rows], fontsize=SMALL)
+    rows = failures[:_WORST]
+    figure, ((axes,),) = style.panels(7.4, 0.9 + 0.27 * len(rows))
+    axes.barh(range(len(rows)), [one.error for one in rows], color=style.COLOURS[0], height=0.7)
+    axes.axvline(1.0, color=style.MEASURED, linewidth=0.9)
+    names = [f"{one.record}, {one.signal}: {one.region}" for one in rows]
+    axes.set_yticks(range(len(rows)), names, fontsize=style.SMALL)
     axes.invert_yaxis()
-    axes.set_xlabel("Residual over noise (1: noise alone)", fontsize=TEXT)
-    quiet(axes)
+    axes.set_xlabel("Residual over noise (1: noise alone)")
     return figure
+
+
+def regions_chart(failures: Sequence[Failure]) -> Chart:
+    """Where a model fails, the worst regions above, with their residual over noise."""
+    worst = failures[:_WORST]
+    names = [plain(f"{one.record}, {one.signal}: {one.region}") for one in worst]
+    bars = {"type": "bar", "orientation": "h", "x": [one.error for one in worst], "y": names}
+    return chart(
+        [{**bars, "marker": {"color": "@final"}}],
+        xaxis=axis("Residual over noise (1: noise alone)"),
+        yaxis=axis(type="category", autorange="reversed", ticksuffix="  "),
+        showlegend=False,
+    )

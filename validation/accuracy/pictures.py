@@ -7,8 +7,8 @@ from typing import Any
 
 from matplotlib.figure import Figure
 
+from pysim.present.overlay import time_response_figure
 from pysim.present.style import COLOURS, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
-from pysim.present.time_response import time_response_figure
 from pysim.types import Record
 from validation.accuracy.judged import ANGLE, COLUMNS, FIT, HELD_OUT, VALVE, Judged
 

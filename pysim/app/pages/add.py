@@ -9,8 +9,11 @@ from pysim.app.answers import Answer, history
 from pysim.app.desk import Desk
 from pysim.app.pages.common import attempt, busy, ended, nothing, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, note, text
+from pysim.present.criteria import CRITERIA
+from pysim.present.diagnosis.figures.criteria import criteria_chart
+from pysim.present.diagnosis.figures.error import error_chart
 from pysim.present.diagnosis.words import step_name
-from pysim.present.interactive import CRITERIA, criteria_figure, error_figure, parameters_figure
+from pysim.present.parameters import parameters_chart
 from pysim.types import read_step
 
 
@@ -68,7 +71,7 @@ class _Error:
             return
         self._place.set_visibility(True)
         told = "; ".join(f"{s['step']} {s['fit'] or s['validate'] or 0:.2f}" for s in steps) or doing
-        figure = error_figure([read_step(s) for s in steps], doing=doing)
+        figure = error_chart([read_step(s) for s in steps], doing=doing)
         label = f"Error over noise, step by step: {told}"
         if self._chart is None:
             with self._place:
@@ -131,7 +134,7 @@ def _criteria(answer: Answer, added: Sequence[str]) -> None:
         rows.append(cells)
     with card("Criteria of thesis Tables 1.3 and 1.4"):
         text("p", "The worst record counts. ✓ within the limit, ✗ beyond it.", "small")
-        Chart(criteria_figure(steps), "Worst value of each criterion over its limit, step by step", height=320)
+        Chart(criteria_chart(steps), "Worst value of each criterion over its limit, step by step", height=320)
         Table("Worst value of each criterion", columns, rows)
 
 
@@ -170,7 +173,7 @@ def _parameters(answer: Answer) -> None:
             "small",
         )
         if drawn:
-            Chart(parameters_figure(drawn), "Parameters between their bounds", height=80 + 27 * len(drawn))
+            Chart(parameters_chart(drawn), "Parameters between their bounds", height=80 + 27 * len(drawn))
         Table("Parameters", columns, rows)
 
 

@@ -16,8 +16,9 @@ from pysim.app.pages.common import busy, ended, nothing, segments, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, quantity, text
 from pysim.app.records import MOST, compared_overlay, measured_overlay, stage_keys
 from pysim.app.working_point import command_unit, response_unit, working_point
+from pysim.present.comparison.figures import bode_chart
+from pysim.present.diagnosis.figures.where import map_chart
 from pysim.present.diagnosis.words import step_name
-from pysim.present.interactive import bode_figure, map_figure
 from pysim.present.notes import USES
 from pysim.types import Dataset, MeasuredRecord, Record
 
@@ -89,7 +90,7 @@ def _maps(desk: Desk, view: _View) -> None:
             "small",
         )
         for k, one in enumerate(error_maps(chosen[2], check.dataset)):
-            figure = map_figure(one.rows, one.columns, one.values, one.title, scale=not k)
+            figure = map_chart(one.rows, one.columns, one.values, one.title, scale=not k)
             label = f"Map of the error: {len(one.rows)} rows, {len(one.columns)} columns"
             Chart(figure, label, height=76 + 30 * len(one.rows), on_pick=partial(_pick, view, one))
 
@@ -223,7 +224,7 @@ def _bode(desk: Desk, view: _View) -> None:
         segments(options, str(number), lambda key: _set(view, response=int(key)), "Operating point")
         if last["message"]:
             text("p", str(last["message"]), "note bad")
-        Chart(bode_figure(one, models), f"Bode plot of {one['output']} to {one['input']}", height=440)
+        Chart(bode_chart(one, models), f"Bode plot of {one['output']} to {one['input']}", height=440)
         told = ", ".join(
             f"{d['name']} {d['value']:.2g} of {d['limit']:g} {d['unit']}"
             for d in last["deviations"]

@@ -9,7 +9,7 @@ from pysim.app.desk import Desk
 from pysim.app.pages.candidates import effect_row
 from pysim.app.pages.common import busy, ended, nothing, start
 from pysim.app.parts import Chart, Drawing, box, button, card, live, note, text
-from pysim.present.interactive import law_figure
+from pysim.present.diagnosis.figures.law import law_chart
 
 _Found = Mapping[str, Mapping[str, Any]]
 
@@ -133,7 +133,7 @@ def _term(one: Mapping[str, Any]) -> None:
     """The law over what it depends on."""
     if len(one["shape"]["argument"]) > 1:
         words = f"Learned law at {one['slot']} over {one['depends_on']} with its 95 percent band"
-        Chart(law_figure(one), words, height=340)
+        Chart(law_chart(one), words, height=340)
     explains = f"Over {one['depends_on']} it explains {100 * one['share']:.1f} % of the misfit."
     text("p", f"{explains} The band holds 95 percent.", "small")
 

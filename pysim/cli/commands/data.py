@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pysim.cli.command import DONE, Command, Given
-from pysim.cli.option import Option, Role, argument, file, text
-from pysim.cli.options import JSON, OUTPUT
+from pysim.cli.option import Role, argument, file, names, text
+from pysim.cli.options import DATASET, JSON, OUTPUT
 
 if TYPE_CHECKING:
     from pysim.identify.data_check import DataCheck
@@ -47,12 +48,11 @@ def _describe(given: Given) -> int:
 
 def _prepare(given: Given) -> int:
     """Raw logs with the steps that make them ready, as a new data set."""
-    from pysim.cli.options import names_of
     from pysim.io.prepare import step_typed
     from pysim.nouns.data import load
 
     steps = [step_typed(word) for word in given.step]
-    inputs, outputs = _columns(names_of(given.input)), _columns(names_of(given.response))
+    inputs, outputs = _columns(given.input), _columns(given.response)
     if inputs or outputs:
         units = {name: unit for name, unit in (inputs | outputs).items() if unit}
         data = load(given.source, inputs=list(inputs), outputs=list(outputs), time=given.time, units=units)
@@ -74,11 +74,10 @@ def _columns(texts: list[str]) -> dict[str, str]:
 
 def _units(texts: list[str]) -> dict[str, str]:
     """Signal -> unit in the files."""
-    from pysim.cli.options import names_of
     from pysim.io.units import unit_cure
     from pysim.types import UNITS, BadInput
 
-    signals = [_signal("input", text) for text in names_of(texts)]
+    signals = [_signal("input", text) for text in texts]
     for signal in signals:
         if signal.unit not in UNITS:
             raise BadInput(f"signal {signal.name}: unit = {signal.unit!r} is not known; {unit_cure(signal.unit)}")
@@ -86,12 +85,11 @@ def _units(texts: list[str]) -> dict[str, str]:
 
 
 def _read(given: Given) -> Dataset:
-    from pysim.cli.options import names_of
     from pysim.io import read_thesis_folder
     from pysim.types import BadInput
     from pysim.workflow import data_of
 
-    inputs, responses = names_of(given.input), names_of(given.response)
+    inputs, responses = given.input, given.response
     if not (inputs or responses):
         return data_of(given.typed["dataset"])
     if len(inputs) != 1 or not responses:
@@ -109,13 +107,9 @@ def _signal(role: str, text: str) -> MeasuredSignal:
     return MeasuredSignal(name, role, unit, name, name)
 
 
-def _signals(input_about: str) -> tuple[Option, Option]:
-    more = "commas or repeat"
-    return (
-        text("--input", "NAME:UNIT,...", f"{input_about}; {more}", repeated=True),
-        text("--response", "NAME:UNIT,...", f"the columns behind it, one by one; {more}", repeated=True),
-    )
-
+_COMMAND = "the command, second column of logs without a dataset.toml whose names tell their frequency"
+_DRIVES = "what drives the plant, by its heading, or in the order of the columns (the second)"
+_BEHIND = "the columns behind it, one by one"
 
 COMMAND = Command(
     "data",
@@ -126,14 +120,9 @@ COMMAND = Command(
             "read a data set and print what it holds",
             _check,
             options=(
-                Option(
-                    ("DATASET",),
-                    "folder with a dataset.toml, or that file",
-                    convert=Path,
-                    role=Role.DATA,
-                    read=_read,
-                ),
-                *_signals("the command, second column of logs without a dataset.toml whose names tell their frequency"),
+                replace(DATASET, about="folder with a dataset.toml, or that file", read=_read),
+                names("--input", _COMMAND, "NAME:UNIT,..."),
+                names("--response", _BEHIND, "NAME:UNIT,..."),
                 JSON,
                 OUTPUT,
             ),
@@ -144,7 +133,8 @@ COMMAND = Command(
             _describe,
             options=(
                 argument("FOLDER", "of logs; nothing else in it is changed", convert=Path),
-                *_signals("what drives the plant, by its heading, or in the order of the columns (the second)"),
+                names("--input", _DRIVES, "NAME:UNIT,..."),
+                names("--response", _BEHIND, "NAME:UNIT,..."),
             ),
         ),
         Command(
@@ -154,13 +144,8 @@ COMMAND = Command(
             options=(
                 argument("SOURCE", "a data set, or a file, folder or pattern of logs", role=Role.READ),
                 text("--step", "STEP:...", "flip:x, trim:start=0.5 and others, in order; repeat", repeated=True),
-                text(
-                    "--input",
-                    "NAME[:UNIT],...",
-                    "what drives the plant, by its heading; commas or repeat",
-                    repeated=True,
-                ),
-                text("--response", "NAME[:UNIT],...", "what answers; commas or repeat", repeated=True),
+                names("--input", "what drives the plant, by its heading", "NAME[:UNIT],..."),
+                names("--response", "what answers", "NAME[:UNIT],..."),
                 text("--time", "HEADING", "the clock, where its values do not tell it"),
                 file("--into", "FOLDER", "a new folder", role=Role.VALUE, required=True),
             ),

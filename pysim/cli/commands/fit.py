@@ -34,15 +34,7 @@ if TYPE_CHECKING:
 
 def run(given: Given) -> Fitted:
     """The estimates, with exact intervals where these were asked for."""
-    from pysim.identify.greybox import (
-        OBJECTIVES,
-        Effort,
-        GaussNewton,
-        InteriorPoint,
-        Processes,
-        Simulation,
-        profile,
-    )
+    from pysim.identify.greybox import OBJECTIVES, Effort, GaussNewton, InteriorPoint, Processes, Simulation, profile
     from pysim.io import in_model_units
     from pysim.present.fit import Fitted
     from pysim.present.progress import Working, announce_compilation

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 import json
+import math
 import sys
 from dataclasses import replace
+from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pysim.cli._inputs import INPUT
 from pysim.cli.command import DONE, NO, Command, Given
-from pysim.cli.option import Role, choice, number, text
-from pysim.cli.options import JSON, LIBRARY, MODEL_FIRST, OUTPUT, PARAMETERS, SET
+from pysim.cli.option import Role, choice, names, number, text
+from pysim.cli.options import JSON, LIBRARY, MODEL_FIRST, OUTPUT, PARAMETERS, SET, point_in_place, read_parameters
 
 if TYPE_CHECKING:
-    from pysim.types import Experiment, Model, Record
+    from pysim.types import Experiment, Model, Record, Signal
 
 _STOP = 1.0  # s, where neither the command line nor the FMU says it
 _OUTPUT = ".csv or .npz to write; else csv to standard output"
@@ -23,7 +24,6 @@ _MOST_ROWS = 10_000_000  # of a run; more is a slip of the keyboard, and would f
 
 def run(given: Given) -> int:
     """Simulate; NO when the run stops early, with what was reached written all the same."""
-    from pysim.cli._inputs import input_files
     from pysim.cli.outputs import prepare_file
     from pysim.present.progress import simulating
     from pysim.simulate import Rk45, Rodas, simulate
@@ -32,7 +32,8 @@ def run(given: Given) -> int:
     model: Model = given.model
     experiment = _experiment(given, model)
     if given.output:
-        prepare_file(given.output, "--output", read=input_files(given))
+        files = [Path(words.partition("=")[2].strip()) for words in given.input]
+        prepare_file(given.output, "--output", read=[path for path in files if path.is_file()])
     with simulating():
         record = simulate(model, experiment, solver=Rodas() if given.solver == "rodas" else Rk45(), check=False)
     _write(given, record)
@@ -45,8 +46,6 @@ def run(given: Given) -> int:
 def _experiment(given: Given, model: Model) -> Experiment:
     import numpy as np
 
-    from pysim.cli._inputs import read_inputs
-    from pysim.cli.options import names_of, read_parameters
     from pysim.types import BadInput, Experiment
     from pysim.workflow import recorded_of
 
@@ -59,8 +58,8 @@ def _experiment(given: Given, model: Model) -> Experiment:
             f"--stop {stop:g} --step {step:g}: {stop / step:.3g} rows are more than {_MOST_ROWS:,}; widen the step"
         )
     times = np.append(np.arange(0.0, stop - step / 2, step), stop)
-    inputs = read_inputs(given, model)
-    recorded = recorded_of(model, names_of(given.record))
+    inputs = _inputs(given, model)
+    recorded = recorded_of(model, given.record)
     return Experiment(times, recorded, inputs, read_parameters(given, model), rates=model.rate_inputs(inputs))
 
 
@@ -75,6 +74,47 @@ def _write(given: Given, record: Record) -> None:
         sys.stdout.write(record_text(record))
 
 
+def _inputs(given: Given, model: Model) -> dict[str, Signal]:
+    """Input -> signal, in the input's unit.
+
+    Raises:
+        BadInput: no NAME=, an unknown name, a number that is not finite, or a file that holds no signal.
+    """
+    from pysim.types import BadInput
+
+    signals = {}
+    for words in given.input:
+        name, equals, value = (part.strip() for part in words.partition("="))
+        if not (name and equals and value):
+            raise BadInput(f"--input {words}: write NAME=NUMBER or NAME=FILE.csv")
+        if name in signals:
+            raise BadInput(f"--input {words}: {name} is driven already; give each input once")
+        signals[model[name].name] = _signal(words, value)
+    return signals
+
+
+def _signal(words: str, value: str) -> Signal:
+    from pysim.io import read_signal
+    from pysim.types import BadInput, Signal
+
+    try:
+        number = float(value)
+    except ValueError:
+        if point_in_place(value) and not Path(value).exists():
+            raise BadInput(f"--input {words}: write the number with a point: {value.replace(',', '.')}") from None
+        return read_signal(Path(value), f"--input {words}")
+    if not math.isfinite(number):
+        raise BadInput(f"--input {words}: {value} is not finite; write a number in the input's unit")
+    return Signal.constant(number)
+
+
+INPUT = text(
+    "--input",
+    "NAME=VALUE",
+    "drive an input by a constant or by FILE.csv with columns time (s) and value, straight lines between; repeat",
+    repeated=True,
+)
+
 COMMAND = Command(
     "simulate",
     "Run a model and write what it did as .csv or .npz.",
@@ -84,7 +124,7 @@ COMMAND = Command(
         LIBRARY,
         number("--stop", "SECONDS", None, "end of the run (the FMU's own, else 1)"),
         number("--step", "SECONDS", None, "time between rows (a 500th of the run)"),
-        text("--record", "NAME,...", "variables (all outputs); commas or repeat", repeated=True),
+        names("--record", "variables (all outputs)"),
         INPUT,
         SET,
         PARAMETERS,

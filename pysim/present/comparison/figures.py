@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pysim.identify import FREQUENCY_CRITERIA, magnitude_db
+from pysim.identify import FREQUENCY_CRITERIA, THESIS_REFERENCE_HZ, magnitude_db
 from pysim.io import shown_point, shown_unit, shown_value
 from pysim.present import style
+from pysim.present.charts import LOOKS, Chart, axis, between, chart, plain
 from pysim.present.comparison.answer import Comparisons
 from pysim.present.render import Picture
 from pysim.types import BadInput, Comparison, Criterion, FrequencyResponse, ResponseComparison
@@ -20,6 +23,8 @@ if TYPE_CHECKING:
 
 _MAX_DB, _MAX_DEG = FREQUENCY_CRITERIA[1].limit, FREQUENCY_CRITERIA[3].limit
 _ALL = "deviations"
+_NEAR = 1e-3  # of the reference, by which the frequency of a log may be off, as in pysim.identify.greybox.stepped_sines
+_NUMBERS = 6  # wanted along the frequencies; of two decades and more Plotly then takes 1, 2 and 5
 
 
 def figures(result: Comparisons) -> Iterator[Picture]:
@@ -161,3 +166,57 @@ def _draw_limit(panel: Axes, criterion: Criterion, largest: float) -> None:
     panel.axvline(criterion.limit, color=style.LIMIT, linewidth=1.0)
     panel.set_title(f"{criterion.name}\nlimit {criterion.limit:g} {criterion.unit}", fontsize=style.SMALL)
     panel.set(xlabel=criterion.unit, xlim=(0.0, right))
+
+
+def bode_chart(response: Mapping[str, Any], models: Sequence[tuple[str, str, Mapping[str, Any]]]) -> Chart:
+    """Magnitude above phase, measured with the band of thesis Table 1.3 around it, and the models.
+
+    Args:
+        response: measured, `frequency` Hz, `gain`, `phase` rad.
+        models: key of LOOKS, words, and the simulated `gain` and `phase`.
+    """
+    f, measured, reference = response["frequency"], response["measured"], reference_place(response["frequency"])
+    relative = ", absolute" if reference is None else f" relative to {f[reference]:g} Hz"
+    told = f"± {_MAX_DB:g} dB, ± {_MAX_DEG:g}° (Table 1.3)"
+    shown: tuple[tuple[Callable[..., list[float]], float, str], ...]
+    shown = ((partial(_decibels, reference=reference), _MAX_DB, "dB"), (_degrees_of, _MAX_DEG, "°"))
+    data: list[Chart] = []
+    for panel, (curve, limit, unit) in enumerate(shown):
+        y, more = curve(measured), {"xaxis": "x", "yaxis": "y2" if panel else "y", "showlegend": not panel}
+        low, high = [v - limit for v in y], [v + limit for v in y]
+        data.append(between(f, low, high, "@band", name=told, legendgroup="band", **more))
+        for key, words, side in [("measured", "measured", measured), *models]:
+            _, colour, dash = LOOKS[key]
+            values = curve(side)
+            turn = 360 * round((values[0] - y[0]) / 360) if panel else 0
+            line = {"x": f, "y": [v - turn for v in values], "line": {"color": colour, "width": 2, "dash": dash}}
+            marks = {"mode": "lines+markers", "marker": {"size": 6, "color": colour}}
+            hover = f"{plain(words)}: %{{y:.2f}} {unit} at %{{x:g}} Hz<extra></extra>"
+            line |= {"mode": "lines", **(marks if key == "measured" else {}), **more}
+            data.append({**line, "name": plain(words), "legendgroup": key, "hovertemplate": hover})
+    return chart(
+        data,
+        xaxis=axis("Frequency (Hz)", type="log", nticks=_NUMBERS, tickformat="~g", anchor="y2"),
+        yaxis=axis(f"Magnitude{relative} (dB)", domain=[0.53, 1]),
+        yaxis2=axis("Phase (°)", domain=[0, 0.47], dtick=45 if max(map(abs, _degrees_of(measured))) > 60 else None),
+    )
+
+
+def reference_place(frequency: Sequence[float]) -> int | None:
+    """Place of the frequency (Hz) whose gain counts as 0 dB on both sides where a response is judged; None: none does.
+
+    A file of stages does not tell it. Logs of stepped sines are judged relative to 0.1 Hz where one of them is at that
+    frequency, and as they are where none is; tables always have it.
+    """
+    near = np.flatnonzero(np.isclose(frequency, THESIS_REFERENCE_HZ, rtol=_NEAR))
+    return int(near[0]) if near.size else None
+
+
+def _decibels(side: Mapping[str, Any], *, reference: int | None) -> list[float]:
+    """Magnitude over that at the place of the reference, or as it is."""
+    base = 1.0 if reference is None else side["gain"][reference]
+    return [20 * math.log10(v / base) for v in side["gain"]]
+
+
+def _degrees_of(side: Mapping[str, Any]) -> list[float]:
+    return [math.degrees(v) for v in side["phase"]]

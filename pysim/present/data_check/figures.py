@@ -12,7 +12,7 @@ from pysim.identify.data_check import DataCheck
 from pysim.io import shown_unit
 from pysim.present.notes import USES
 from pysim.present.render import Picture
-from pysim.present.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, frequency_axis, legend_above, new_figure, quiet
+from pysim.present.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, frequency_axis, legend_above, panels
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
 
 if TYPE_CHECKING:
@@ -63,9 +63,7 @@ def coverage_figure(dataset: Dataset) -> Figure:
     if not sines:
         raise BadInput(f"data set {dataset.name!r} has no stepped sines to show")
     tests = list(dict.fromkeys(_test(record) for record in sines))
-    figure = new_figure(7.5, 1.3 + 0.28 * max(len(tests), 4))  # at least as high as the label
-    axes = figure.subplots()
-    quiet(axes)
+    figure, ((axes,),) = panels(7.5, 1.3 + 0.28 * max(len(tests), 4))  # at least as high as the label
     handles: dict[str, Any] = {}
     for held_out, label, face in ((False, "to fit", COLOURS[0]), (True, USES["validate"], "white")):
         chosen = [record for record in sines if record.held_out == held_out]
@@ -82,8 +80,7 @@ def coverage_figure(dataset: Dataset) -> Figure:
     axes.invert_yaxis()
     axes.margins(y=0.5 / len(tests))
     unit = "" if several else f" ({_shown(dataset, tests[0].command)[0]})"
-    axes.set_ylabel(f"Offset / amplitude{unit}", fontsize=TEXT)
-    axes.set_xlabel("Frequency (Hz)", fontsize=TEXT)
+    axes.set(xlabel="Frequency (Hz)", ylabel=f"Offset / amplitude{unit}")
     legend_above(figure, list(handles.values()), list(handles))
     return figure
 
@@ -105,15 +102,14 @@ def sine_logs_figure(dataset: Dataset) -> Figure:
     outputs = Counter(name for record in sines for name in dataset.columns(record, "output"))
     answer = outputs.most_common(1)[0][0]
     commands = list(dict.fromkeys(_shown_name(dataset, record.command) for record in sines))
-    figure = new_figure(1.3 + 1.7 * len(frequencies), 0.9 + 1.2 * len(tests))
-    left = figure.subplots(len(tests), len(frequencies), sharey="row", squeeze=False)
+    size = (1.3 + 1.7 * len(frequencies), 0.9 + 1.2 * len(tests))
+    figure, left = panels(*size, len(tests), len(frequencies), sharey="row")
     by_place = {(_test(record), record.frequency): record for record in sines}
     unit = _shown(dataset, answer)[0]
     for i, test in enumerate(tests):
         right = left[i] if _shown(dataset, test.command)[0] == unit else _right_axes(left[i], unit)
         for k, frequency in enumerate(frequencies):
             record = by_place.get((test, frequency))
-            quiet(left[i, k])
             left[i, k].set_xticks([0, 1, 2], [] if i < len(tests) - 1 else ["0", "1", "2"])
             left[i, k].set_xlim(0, _PERIODS)
             if record is not None:
@@ -167,22 +163,20 @@ def time_logs_figure(dataset: Dataset) -> Figure:
         raise BadInput(f"data set {dataset.name!r} has no logs but stepped sines")
     units = list(dict.fromkeys(_shown(dataset, name)[0] for record in logs for name in _names(record)))
     names = list(dict.fromkeys(name for record in logs for name in _names(record)))
-    figure = new_figure(1.0 + 5.5 * len(units), 0.9 + 1.5 * len(logs))
-    axes = figure.subplots(len(logs), len(units), squeeze=False)
+    figure, axes = panels(1.0 + 5.5 * len(units), 0.9 + 1.5 * len(logs), len(logs), len(units))
     for i, record in enumerate(logs):
         for k, unit in enumerate(units):
             panel = axes[i, k]
-            quiet(panel)
             shown = [name for name in _names(record) if _shown(dataset, name)[0] == unit]
             if not shown:
                 panel.set_axis_off()
                 continue
             for name in shown:
                 _draw(panel, dataset, record, name, names)
-            panel.set_ylabel(f"({unit})", fontsize=TEXT)
+            panel.set_ylabel(f"({unit})")
             panel.set_title(f"{record.source}: {record.kind}, {record.use}", fontsize=SMALL, loc="left")
     for panel in axes[-1]:
-        panel.set_xlabel("Time (s)", fontsize=TEXT)
+        panel.set_xlabel("Time (s)")
     figure.align_ylabels()
     from matplotlib.lines import Line2D
 

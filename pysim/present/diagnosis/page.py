@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.io import shown_value
+from pysim.present.criteria import CRITERIA
 from pysim.present.diagnosis.answer import Diagnosed, files
 from pysim.present.diagnosis.law_words import law_kind, law_sentence
 from pysim.present.diagnosis.words import (
@@ -29,7 +29,6 @@ from pysim.present.render import Drawing
 from pysim.types import Diagnosis, ErrorStep, Estimate, FoundEffect, Rival
 from pysim.types.answer import REFIT
 
-_CRITERIA = (*FREQUENCY_CRITERIA, *TIME_CRITERIA)
 _WORST = 15  # places listed
 _METHOD = (
     "Residuals are measured minus simulated, in standard deviations of the noise: where nothing but noise is left "
@@ -174,7 +173,7 @@ def _parameter(before: Estimate, after: Estimate | None, move: float | None, hel
 
 
 def _history(steps: Sequence[ErrorStep]) -> str:
-    shown = [c for c in _CRITERIA if any(c.symbol in step.criteria for step in steps)]
+    shown = [c for c in CRITERIA.values() if any(c.symbol in step.criteria for step in steps)]
     unseen = any(step.test is not None for step in steps)
     rows = []
     for step in steps:

@@ -4,21 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from pysim.identify import HALF_95
 from pysim.io import shown_unit, shown_value
 from pysim.present import style
+from pysim.present.charts import Chart, axis, heat_map
 from pysim.present.fit.answer import Fitted
+from pysim.present.overlay import Side, beside_figure
+from pysim.present.parameters import AFTER, START, between_bounds, parameters_legend
 from pysim.present.render import Picture
-from pysim.types import BadInput, Dataset, Estimate, Fit, RecordFit
+from pysim.types import BadInput, Dataset, Fit, RecordFit
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-_MANY = 5000  # samples beyond which lines are drawn thin, and as pixels
 _CELL_IN, _NAME_IN = 0.46, 0.075  # in, a cell of the correlations and a letter of a name
 
 
@@ -62,24 +64,7 @@ def _tests(records: Sequence[RecordFit], datasets: Sequence[Dataset]) -> list[st
 
 def fit_record_figure(record: RecordFit) -> Figure:
     """Measured and simulated, and below them the residual in standard deviations of the noise; a column per signal."""
-    names = record.measured.names
-    figure, axes = style.panels(1.0 + 5.4 * len(names), 4.6, 2, len(names), sharex=True, height_ratios=(3, 2))
-    time, residual = record.measured.time, record.residual.values
-    for j, (name, unit) in enumerate(zip(names, record.measured.units, strict=True)):
-        top, low = axes[:, j]
-        many = time.size > _MANY
-        look: dict[str, Any] = {"linewidth": 0.7 if many else 1.2, "rasterized": many}
-        shown, factor = shown_unit(unit)
-        (measured,) = top.plot(time, factor * record.measured.values[:, j], color=style.MEASURED, **look)
-        simulated = factor * record.simulated.values[:, j]
-        (model,) = top.plot(time, simulated, color=style.COLOURS[1], linestyle="--", **look)
-        low.axhspan(-HALF_95, HALF_95, color=style.BAND, linewidth=0)
-        low.plot(time, residual[:, j], color=style.COLOURS[0], linewidth=0, marker=".", markersize=1.5, rasterized=many)
-        top.set_ylabel(f"{name} ({shown})")
-        low.set(xlabel="Time (s)", ylabel="Residual (noise s.d.)")
-        low.set_title(f"rms {record.rms[name]:.3f}", fontsize=style.SMALL, loc="right")
-    style.legend_above(figure, [measured, model], ["measured", "fitted model"])
-    return figure
+    return beside_figure([Side("fitted model", "fitted model", record, style.look(0, "linestyle"))])
 
 
 def fit_harmonics_figure(records: Sequence[RecordFit], title: str, signal: str) -> Figure:
@@ -129,31 +114,11 @@ def fit_harmonics_figure(records: Sequence[RecordFit], title: str, signal: str) 
 
 
 def fit_parameters_figure(fit: Fit) -> Figure:
-    """Each estimate with its 95 percent interval between its bounds; where a bound is infinite, around the estimate."""
-    figure, ((axes,),) = style.panels(6.4, 0.9 + 0.32 * len(fit.estimates))
-    for row, estimate in enumerate(fit.estimates):
-        low, high = _range(estimate)
-        share = [(v - low) / (high - low) for v in (estimate.value, *estimate.interval, estimate.start)]
-        axes.plot([0, 1], [row, row], color=style.BAND, linewidth=5, solid_capstyle="butt")
-        axes.plot(np.clip(share[1:3], 0, 1), [row, row], color=style.COLOURS[0], linewidth=2.2, solid_capstyle="butt")
-        axes.plot(share[0], row, color=style.COLOURS[0], marker="o", markersize=5)
-        axes.plot(np.clip(share[3], 0, 1), row, color=style.LIMIT, marker="|", markersize=9)
-    axes.set_yticks(range(len(fit.estimates)), [e.name for e in fit.estimates], fontsize=style.SMALL)
-    axes.set_xticks([0, 1], ["lower bound", "upper bound"])
-    axes.set_xlim(-0.03, 1.03)
-    axes.invert_yaxis()
-    handles = [axes.plot([], [], color=style.COLOURS[0], marker="o", linewidth=2.2)[0]]
-    handles.append(axes.plot([], [], color=style.LIMIT, marker="|", linewidth=0, markersize=9)[0])
-    style.legend_above(figure, handles, ["estimate, 95 % interval", "start"])
+    """Each estimate with its 95 percent interval between its bounds."""
+    figure, ((axes,),) = style.panels(5.6, 1.1 + 0.27 * len(fit.estimates))
+    between_bounds(axes, fit.estimates, AFTER)
+    parameters_legend(figure, axes, {"estimate, 95 % interval": AFTER, "start": {**START, "linestyle": "none"}})
     return figure
-
-
-def _range(estimate: Estimate) -> tuple[float, float]:
-    """What the axis of one parameter spans."""
-    finite = [v for v in (estimate.value, estimate.start, *estimate.interval) if np.isfinite(v)]
-    low = estimate.lower if np.isfinite(estimate.lower) else min(finite) - 0.1 * abs(min(finite)) - 1e-12
-    high = estimate.upper if np.isfinite(estimate.upper) else max(finite) + 0.1 * abs(max(finite)) + 1e-12
-    return low, high
 
 
 def fit_correlation_figure(fit: Fit) -> Figure:
@@ -179,3 +144,12 @@ def fit_correlation_figure(fit: Fit) -> Figure:
 
         style.legend_above(figure, [Patch(color=style.BAND)], ["not determined, or at a bound"])
     return figure
+
+
+def fit_correlation_chart(names: Sequence[str], matrix: Sequence[Sequence[float | None]]) -> Chart:
+    """The same as a chart; an empty cell where the data determine none."""
+    shown = [[None if v is None or np.isnan(v) else v for v in row] for row in matrix]
+    text = [["" if v is None else f"{v:.2f}" for v in row] for row in shown]
+    colours = {"zmin": -1, "zmax": 1, "colorscale": "RdBu", "reversescale": True}
+    hover = {"hovertemplate": "%{y}, %{x}: %{z:.3f}<extra></extra>"}
+    return heat_map(names, names, shown, text, axis(type="category", showgrid=False), {**colours, **hover})

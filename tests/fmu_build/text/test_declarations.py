@@ -105,3 +105,25 @@ def test_text_that_ends_too_early_gives_what_can_be_read() -> None:
         model = read(DECLARED[:end])["M"]
         names = [declaration.name for declaration in model.of_kind(Kind.COMPONENT)]
         assert names[:-1] == ["a", "b", "c", "s", "y"][: len(names[:-1])]
+
+
+def test_what_an_equation_begins_with_is_no_component() -> None:
+    """Declarations end where an equation begins; a short connector is of the class that it names."""
+    text = """package P
+  connector In = input Real "in";
+  model M
+    parameter Real p = 1 "a";
+    Real x[2], y;
+    In u;
+  equation
+    when sample(0, p) then
+      y = u;
+    end when;
+    for i in 1:2 loop x[i] = if time < p then i else i*time; end for;
+    if p > 2 then y = 1; else y = time; end if;
+  end M;
+end P;"""
+    classes = read(text)["P"].classes
+    assert [one.name for one in classes["M"].of_kind(Kind.COMPONENT)] == ["p", "x", "y", "u"]
+    assert [one.tokens[0].text for one in classes["M"].equations] == ["when", "for", "if"]
+    assert [one.class_name for one in classes["In"].of_kind(Kind.EXTENDS)] == ["Real"]

@@ -12,7 +12,8 @@ from pysim.app.jobs import ANSWER, RECORDS
 from pysim.app.project import Project
 from pysim.app.records import compared_overlay, measured_overlay, stage_keys
 from pysim.io import write_stages
-from pysim.present.interactive import error_figure, parameters_figure
+from pysim.present.diagnosis.figures.error import error_chart
+from pysim.present.parameters import parameters_chart
 from pysim.types import read_step
 from tests.pysim.diagnosis_answer import dataset, found_offset
 
@@ -88,7 +89,7 @@ def test_before_anything_was_compared_the_log_alone_is_shown() -> None:
 
 def test_the_picture_of_the_error_shows_every_error_and_what_is_being_worked_on() -> None:
     steps = present.data(found_offset())["error"]
-    figure = error_figure([read_step(step) for step in steps], doing="<b>screening</b>")  # type: ignore[attr-defined]
+    figure = error_chart([read_step(step) for step in steps], doing="<b>screening</b>")  # type: ignore[attr-defined]
     told = [note["text"] for note in figure["layout"]["annotations"]]
     assert told[:6] == ["<b>8.10</b>", "<b>8.00</b>", "<b>4.20</b>", "<b>3.20</b>", "<b>1.01</b>", "<b>1.00</b>"]
     assert figure["layout"]["xaxis"]["ticktext"][-1] == "<i>&lt;b&gt;screening&lt;/b&gt; …</i>"
@@ -96,6 +97,6 @@ def test_the_picture_of_the_error_shows_every_error_and_what_is_being_worked_on(
 
 def test_parameters_stand_between_their_bounds() -> None:
     row = {"name": "m", "lower": 0.0, "upper": 10.0, "before": (2.0, 1.0, 4.0), "after": None}
-    (before,) = parameters_figure([row])["data"]
+    (before,) = parameters_chart([row])["data"]
     assert before["x"] == [20.0]
     assert (before["error_x"]["array"], before["error_x"]["arrayminus"]) == ([20.0], [10.0])

@@ -1,29 +1,21 @@
 """What the commands read from their words: one form for a data set and a model, and lists of names."""
 
-import argparse
 from pathlib import Path
-from typing import Any
 
 import pytest
 
-from pysim.cli.command import Given
-from pysim.cli.main import argument_parser, registry
-from pysim.cli.options import names_of
+from pysim.cli.main import argument_parser
+from pysim.cli.option import names_of
+from tests.pysim.cli.ran import parsed
 
 OWN = {"add": ["--effects", "e"]}
 
 
-def parsed(words: list[str]) -> Any:
-    """The values of a command's options by their names."""
-    args = argument_parser(words[0]).parse_args(words)
-    return argparse.Namespace(**Given(registry()[words[0]], args, ()).typed)
-
-
 @pytest.mark.parametrize("command", ["add", "compare", "diagnose", "fit", "locate"])
 def test_a_data_set_and_its_model_have_one_form(command: str, capsys: pytest.CaptureFixture[str]) -> None:
-    args = parsed([command, "d", "--model", "m.fmu", *OWN.get(command, [])])
-    assert args.model == "m.fmu"
-    assert args.dataset in (Path("d"), [Path("d")])
+    typed = parsed([command, "d", "--model", "m.fmu", *OWN.get(command, [])]).typed
+    assert typed["model"] == "m.fmu"
+    assert typed["dataset"] in (Path("d"), [Path("d")])
     for words, named in ((["d"], "--model"), (["--model", "m"], "DATASET")):
         with pytest.raises(SystemExit) as end:
             argument_parser().parse_args([command, *words, *OWN.get(command, [])])
@@ -32,7 +24,7 @@ def test_a_data_set_and_its_model_have_one_form(command: str, capsys: pytest.Cap
 
 
 def test_a_fit_takes_several_data_sets() -> None:
-    assert parsed(["fit", "a", "b", "--model", "m.fmu"]).dataset == [Path("a"), Path("b")]
+    assert parsed(["fit", "a", "b", "--model", "m.fmu"]).typed["dataset"] == [Path("a"), Path("b")]
 
 
 @pytest.mark.parametrize(
@@ -48,7 +40,7 @@ def test_a_fit_takes_several_data_sets() -> None:
     ],
 )
 def test_names_are_listed_with_commas_or_one_by_one(words: list[str], option: str) -> None:
-    assert names_of(getattr(parsed(words), option)) == ["a", "b", "c"]
+    assert getattr(parsed(words), option) == ["a", "b", "c"]
 
 
 def test_a_comma_within_brackets_belongs_to_the_name() -> None:

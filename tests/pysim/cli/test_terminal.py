@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from pysim.cli import main
-from pysim.cli.terminal import print_everything
+from pysim.cli.main import print_everything
 
 
 def test_letters_that_an_encoding_lacks_are_replaced(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -10,7 +10,7 @@ import pysim
 from pysim.nouns.diagnosis import Diagnosis
 from pysim.nouns.fit import Fit
 from pysim.nouns.model import Model
-from pysim.present.interactive.plotly import COLOURS, HEAT, coloured
+from pysim.present.charts import COLOURS, HEAT, coloured
 from pysim.types import BadInput, Dataset
 from tests.test_docs import ROOT
 

@@ -1,6 +1,8 @@
-"""What a reader of a picture sees: the numbers on its axes, and whether all of it is on the page."""
+"""What a reader of a picture sees: the numbers on its axes, whether all of it is on the page, and lines of a chart."""
 
 from __future__ import annotations
+
+from typing import Any
 
 from matplotlib.axis import Axis
 from matplotlib.figure import Figure
@@ -21,3 +23,8 @@ def is_whole(figure: Figure) -> bool:
     figure.draw_without_rendering()
     drawn, page = figure.get_tightbbox(), figure.bbox_inches
     return bool(drawn.x0 >= 0 and drawn.y0 >= 0 and drawn.x1 <= page.x1 and drawn.y1 <= page.y1)
+
+
+def trace(chart: dict[str, Any], name: str, panel: str = "y") -> dict[str, Any]:
+    """The line of a chart with a name, in a panel."""
+    return next(t for t in chart["data"] if t["name"].startswith(name) and t.get("yaxis", "y") == panel)

@@ -19,7 +19,7 @@ def test_a_record_is_drawn_with_its_residual_in_noise() -> None:
     top, _, low, _ = figure.axes
     assert [line.get_ydata()[0] for line in top.lines] == pytest.approx([0.0, 0.2])
     assert low.lines[0].get_ydata() == pytest.approx(np.full(50, -2.0))
-    assert low.get_ylabel() == "Residual (noise s.d.)"
+    assert low.get_ylabel() == "Residual over noise (-)"
 
 
 def test_harmonics_show_measured_points_and_simulated_lines() -> None:
@@ -41,7 +41,10 @@ def test_long_logs_are_drawn_as_pixels() -> None:
         for log in (record.measured, record.simulated)
     )
     for one, pixels in ((replace(record, measured=measured, simulated=simulated), True), (record, False)):
-        assert [line.get_rasterized() for line in fit_record_figure(one).axes[0].lines] == [pixels] * 2
+        assert [line.get_rasterized() for line in fit_record_figure(one).axes[0].lines] == [
+            True,
+            pixels,
+        ]  # measured, fitted
 
 
 def test_pictures_of_records_are_in_units_that_people_read() -> None:
@@ -65,8 +68,8 @@ def test_pictures_of_records_are_in_units_that_people_read() -> None:
 
 def test_intervals_stand_between_the_bounds() -> None:
     axes = fit_parameters_figure(small_fit()).axes[0]
-    assert axes.lines[1].get_xdata() == pytest.approx([1.7 / 9.9, 2.1 / 9.9])
-    assert [text.get_text() for text in axes.get_yticklabels()] == ["K", "g", "T"]
+    assert axes.lines[2].get_xdata() == pytest.approx([1.7 / 9.9, 2.1 / 9.9])
+    assert [text.get_text() for text in axes.get_yticklabels()] == ["K", "g", "T (s)"]
 
 
 def test_correlations_that_are_none_are_left_out() -> None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from pysim.present.time_response import time_response_figure
+from pysim.present.overlay import time_response_figure
 from pysim.types import BadInput, Record
 
 

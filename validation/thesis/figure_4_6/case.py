@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from pysim.excitation import PiersonMoskowitz, StochasticWave
-from pysim.present.time_response import time_response_figure
+from pysim.present.overlay import time_response_figure
 from pysim.simulate import Rodas, simulate_many
 from pysim.types import Experiment, Record
 from validation.findings import Finding

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.present.diagnosis.answer import Diagnosed
-from pysim.present.diagnosis.figures.error import candidates_figure, error_figure
+from pysim.present.diagnosis.figures.candidates import candidates_figure
+from pysim.present.diagnosis.figures.error import error_figure
 from pysim.present.diagnosis.figures.law import law_figure
 from pysim.present.diagnosis.figures.parameters import parameters_figure
 from pysim.present.diagnosis.figures.records import overlay_figure, telling_records

@@ -1,27 +1,58 @@
-"""What a diagnosis answers, in two figures: the error falling step by step, and what each candidate explains."""
+"""The falling error: a level per step and use of logs, as a figure and as a chart."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pysim.identify.accuracy import FREQUENCY_CRITERIA, TIME_CRITERIA
 from pysim.present import style
-from pysim.present.diagnosis.levels import levels
-from pysim.present.diagnosis.words import candidates_shown, errors, size_text, step_name
+from pysim.present.charts import Chart, chart, level_band, plain, size_axis, stairs, step_axis
+from pysim.present.criteria import CRITERIA
+from pysim.present.diagnosis.figures.criteria import criteria_rows
+from pysim.present.diagnosis.words import errors, size_text, step_name
 from pysim.present.notes import USES
-from pysim.types import BadInput, Criterion, Diagnosis, ErrorStep, Rival
+from pysim.types import BadInput, ErrorStep
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_CRITERIA = {c.symbol: c for c in (*FREQUENCY_CRITERIA, *TIME_CRITERIA)}
-_PASS, _FAIL = "#14663a", "#b3261e"
-_ROWS = 14  # candidates shown
+_LOW = 0.6  # of the smallest value: room for its number below the line
+_TICKS = tuple(digit * 10.0**power for power in range(-2, 7) for digit in (1, 2, 5))
+# Of a chart, by the use of logs: colour, dash and mark of its line, and where numbers stand that must not meet.
+_MOVING = (("@final", "solid", "circle"), ("@base", "dash", "square"), ("@measured", "dot", "diamond"))
+_LOOKS = dict(zip(USES.values(), _MOVING, strict=True))
+_ABOVE, _BESIDE, _BELOW = {"yshift": 15}, {"xshift": 26}, {"yshift": -15}
+
+
+@dataclass(frozen=True)
+class Levels:
+    """What is drawn.
+
+    Args:
+        lines: use of logs -> its residual over noise at each step, None where that is not known.
+        low, high: ends of the axis.
+        ticks: numbers on it.
+    """
+
+    lines: Mapping[str, tuple[float | None, ...]]
+    low: float
+    high: float
+    ticks: tuple[float, ...]
+
+
+def levels(steps: Sequence[ErrorStep]) -> Levels:
+    """Of an error history; a use of which there are no logs has no line."""
+    lines = {use: tuple(errors(step).get(use) for step in steps) for use in USES.values()}
+    known = [value for values in lines.values() for value in values if value]
+    low, high = min([_LOW, *(_LOW * v for v in known)]), max([1.6, *(1.7 * v for v in known)])
+    shown = {use: values for use, values in lines.items() if any(value is not None for value in values)}
+    return Levels(shown, low, high, tuple(t for t in _TICKS if low <= t <= high))
 
 
 def error_figure(steps: Sequence[ErrorStep]) -> Figure:
@@ -34,13 +65,13 @@ def error_figure(steps: Sequence[ErrorStep]) -> Figure:
     """
     if not steps:
         raise BadInput("error figure: needs at least one step")
-    symbols = [s for s in _CRITERIA if any(s in step.criteria for step in steps)]
+    symbols = [s for s in CRITERIA if any(s in step.criteria for step in steps)]
     width, height, ratios = max(6.6, 2.6 + 1.3 * len(steps)), 3.3 + 0.24 * len(symbols), [3.0]
     ratios += [0.3 + 0.27 * len(symbols)] if symbols else []
     figure, axes = style.panels(width, height, len(ratios), sharex=True, height_ratios=ratios)
     top = axes[0, 0]
     if symbols:
-        _criteria(axes[1, 0], steps, symbols)
+        criteria_rows(axes[1, 0], steps, symbols)
     _levels(figure, top, steps)
     top.set_xlim(-0.5, len(steps) - 0.5)
     top.set_xticks(range(len(steps)), [step_name(step.step) for step in steps], fontsize=style.TEXT)
@@ -87,71 +118,46 @@ def _numbers(axes: Axes, i: int, step: ErrorStep) -> None:
         style.small_text(axes, size_text(value), (i, value), away, ha=ha, va=va, color=colour)
 
 
-def _criteria(axes: Axes, steps: Sequence[ErrorStep], symbols: Sequence[str]) -> None:
-    """A row per criterion, a column per step: its worst value, met or not."""
-    axes.grid(False)
-    for row, symbol in enumerate(symbols):
-        for i, step in enumerate(steps):
-            value, limit = step.criteria.get(symbol), _CRITERIA[symbol].limit
-            if value is None:
-                continue
-            met = value <= limit
-            text = f"{value:.3g}  {'✓' if met else '✗'}"
-            axes.text(
-                i, row, text, ha="center", va="center", fontsize=style.SMALL, color=_PASS if met else _FAIL,
-                fontweight="normal" if met else "bold",
-            )  # fmt: skip
-    axes.set_ylim(len(symbols) - 0.4, -0.6)
-    axes.set_yticks(range(len(symbols)), [_limit(_CRITERIA[s]) for s in symbols], fontsize=style.SMALL)
-    axes.spines[:].set_visible(False)
-    axes.tick_params(length=0, labelbottom=False)
-    for row in range(len(symbols) + 1):
-        axes.axhline(row - 0.5, color="#e6e6e6", linewidth=0.6)
+def error_chart(steps: Sequence[ErrorStep], *, doing: str = "") -> Chart:
+    """The error over noise, step by step, of each use of logs; what is being worked on stands last, empty.
 
-
-def _limit(criterion: Criterion) -> str:
-    words = criterion.name.removesuffix(" deviation")
-    return f"{words} ≤ {criterion.limit:g} {criterion.unit}"
-
-
-def candidates_figure(diagnosis: Diagnosis) -> Figure:
-    """Share of the misfit that each candidate explains, the best on top: full bars were refitted, hollow ones screened.
-
-    What was added, and what these data cannot tell from it, have colours of their own.
-
-    Raises:
-        BadInput: no candidate.
+    Args:
+        steps: of the error history.
+        doing: name of the step that is being found; "" where nothing runs.
     """
-    rows = candidates_shown(diagnosis)[:_ROWS]
-    if not rows:
-        raise BadInput("candidates figure: needs at least one candidate")
-    added, tied = {one.effect.name for one in diagnosis.effects}, {name for group in diagnosis.ties for name in group}
-    figure, ((axes,),) = style.panels(7.4, 0.9 + 0.27 * len(rows))
-    axes.grid(False, axis="y")
-    for i, row in enumerate(rows):
-        last = row.effects[-1]
-        _bar(
-            axes, i, row, style.COLOURS[4] if last in tied else style.COLOURS[0] if last in added else style.COLOURS[5]
-        )
-    axes.set_xlim(0, 120)
-    axes.set_xticks(range(0, 101, 20))
-    axes.set_ylim(len(rows) - 0.4, -0.6)
-    axes.set_yticks(range(len(rows)), [" + ".join(row.effects) for row in rows], fontsize=style.SMALL)
-    axes.set_xlabel("Explains of the misfit of the model it joins (%)")
-    from matplotlib.patches import Patch
-
-    kinds = {"added": Patch(facecolor=style.COLOURS[0])} if added - tied else {}
-    kinds |= {"indistinguishable": Patch(facecolor=style.COLOURS[4])} if tied else {}
-    kinds |= {"refitted": Patch(facecolor=style.COLOURS[5])}
-    kinds |= {"screened only": Patch(facecolor="white", edgecolor=style.COLOURS[5], hatch="////")}
-    style.legend_above(figure, list(kinds.values()), list(kinds))
-    return figure
+    names = [plain(step_name(step.step)) for step in steps]
+    found = levels(steps)
+    notes = [note for k in range(len(steps)) for note in _notes(k, {u: v[k] for u, v in found.lines.items()})]
+    noise = {"xref": "paper", "x": 0.004, "y": math.log10(1.0), "text": "noise alone", "showarrow": False}
+    notes.append({**noise, "xanchor": "left", "yanchor": "top", "font": {"size": 11.5, "color": "@quiet"}})
+    shapes = [level_band(found.low, 1)]
+    if doing:
+        names.append(f"<i>{'<br>'.join(plain(line) for line in wrap(doing, 20))} …</i>")
+        begin = len(steps) - 0.5
+        box = {"type": "rect", "x0": begin + 0.06, "x1": begin + 0.94, "yref": "paper", "y0": 0.02, "y1": 0.98}
+        shapes.append({**box, "line": {"color": "@quiet", "width": 1.2, "dash": "dot"}, "fillcolor": "@raised"})
+    return chart(
+        [trace for use, values in found.lines.items() for trace in _stairs(use, values)],
+        xaxis=step_axis(names),
+        yaxis=size_axis("Error over noise (–)", found.low, found.high, found.ticks),
+        shapes=shapes,
+        annotations=notes,
+        margin={"l": 62, "r": 18, "t": 34, "b": 30},
+    )
 
 
-def _bar(axes: Axes, i: int, row: Rival, colour: str) -> None:
-    hollow = {"facecolor": "white", "edgecolor": colour, "hatch": "////"}
-    look: dict[str, Any] = {"facecolor": colour} if row.refitted else hollow
-    share = 100 * row.explained
-    axes.barh(i, share, height=0.62, linewidth=0.8, **look)
-    text = f"{share:.1f} %" if row.score > 0 else f"{share:.1f} %, no better for its parameters"
-    style.small_text(axes, text, (share, i), (4, 0), va="center", color="#333333")
+def _stairs(use: str, values: Sequence[float | None]) -> list[Chart]:
+    colour, dash, symbol = _LOOKS[use]
+    line, mark = {"color": colour, "width": 3, "dash": dash}, {"color": colour, "size": 9, "symbol": symbol}
+    return stairs(values, line, mark, name=use, hovertemplate=f"{use}: %{{y:.3g}} times the noise<extra></extra>")
+
+
+def _notes(k: int, values: dict[str, float | None]) -> list[dict[str, Any]]:
+    """The largest above its line, the smallest below, one between them beside."""
+    known = sorted(((value, _LOOKS[use][0]) for use, value in values.items() if value), reverse=True)
+    places = [_ABOVE, *[_BESIDE] * (len(known) - 2), _BELOW]
+    return [
+        {"x": k, "y": math.log10(value), "showarrow": False, **place, "text": f"<b>{size_text(value)}</b>"}
+        | {"font": {"color": colour, "size": 13}}
+        for (value, colour), place in zip(known, places, strict=False)
+    ]

@@ -1,13 +1,15 @@
-"""A learned law: what a place of the model lacks, over what it depends on."""
+"""A learned law: what a place of the model lacks, over what it depends on; as a figure and as a chart."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from pysim.io import shown_unit
 from pysim.present import style
+from pysim.present.charts import Chart, axis, between, chart, level_line, plain, unit_text
 from pysim.present.diagnosis.law_words import ABSORBED, law_kind
 from pysim.types import BadInput, LearnedLaw
 
@@ -57,3 +59,23 @@ def _density(axes: Axes, samples: NDArray[np.float64], knots: NDArray[np.float64
     axes.hist(samples, bins=_BINS, range=(float(knots[0]), float(knots[-1])), color=style.MEASURED, alpha=0.5)
     axes.set_yticks([])
     axes.set_ylabel("Data", fontsize=style.SMALL)
+
+
+def law_chart(law: Mapping[str, Any]) -> Chart:
+    """The curve over what it depends on, with its 95 percent band.
+
+    Args:
+        law: of `missing` in the answer.
+    """
+    shape = law["shape"]
+    (unit_in, scale_in), (unit_out, scale_out) = shown_unit(shape["argument_unit"]), shown_unit(shape["unit"])
+    x = [v * scale_in for v in shape["argument"]]
+    y, low, high = ([v * scale_out for v in shape[name]] for name in ("value", "low", "high"))
+    line: dict[str, Any] = {"x": x, "y": y, "mode": "lines+markers", "name": "learned law"}
+    line |= {"line": {"color": "@final", "width": 2.5}, "marker": {"size": 6, "color": "@final"}}
+    return chart(
+        [between(x, low, high, "@finalband", name="95 % band"), line],
+        xaxis=axis(f"{plain(law['depends_on'])} ({unit_text(unit_in)})"),
+        yaxis=axis(f"missing at {plain(law['slot'])} ({unit_text(unit_out)})"),
+        shapes=[level_line(0, "@line", 1)],
+    )

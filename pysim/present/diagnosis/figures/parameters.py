@@ -2,21 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TYPE_CHECKING, Any
-
-import numpy as np
+from typing import TYPE_CHECKING
 
 from pysim.present import style
+from pysim.present.parameters import AFTER, BEFORE, START, between_bounds, parameters_legend
 from pysim.types import BadInput, ErrorStep, Estimate
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-_TICK: dict[str, Any] = {"marker": "|", "markersize": 9, "markeredgewidth": 2}
 _LEAST = 0.1  # half widths of an interval at which the axis of the moves begins
 
 
@@ -38,58 +35,14 @@ def parameters_figure(before: ErrorStep, after: ErrorStep | None) -> Figure:
     ratios = [3, 2] if ends else [3]
     width, height = 7.8 if ends else 5.6, 1.1 + 0.27 * len(rows)
     figure, axes = style.panels(width, height, 1, len(ratios), sharey=True, width_ratios=ratios)
-    left = axes[0, 0]
-    for panel in axes.flat:
-        panel.grid(False, axis="y")
-    if after is not None:
+    looks = {"as it is": {**START, "linestyle": "none"}, "refitted, 95 % interval": BEFORE}
+    if after is not None and ends:
+        axes[0, -1].grid(False, axis="y")
         _moves(axes[0, -1], rows, after.moves_from(before), held)
-    _between_bounds(left, rows, ends)
-    left.set_ylim(len(rows) - 0.4, -0.6)
-    names = [f"{e.name} ({e.unit})" if e.unit != "1" else e.name for e in rows]
-    left.set_yticks(range(len(rows)), names, fontsize=style.SMALL)
-    looks: dict[str, dict[str, Any]] = {
-        "as it is": {**_TICK, "color": style.LIMIT, "linestyle": "none"},
-        "refitted, 95 % interval": {"color": style.COLOURS[1], "marker": "s", "markersize": 4, "linewidth": 2},
-        "with what was added, 95 % interval": {
-            "color": style.COLOURS[0],
-            "marker": "o",
-            "markersize": 4,
-            "linewidth": 2,
-        },
-    }
-    shown = list(looks)[: 3 if ends else 2]
-    style.legend_above(figure, [left.plot([], [], **looks[name])[0] for name in shown], shown)
+        looks["with what was added, 95 % interval"] = AFTER
+    between_bounds(axes[0, 0], rows, BEFORE, ends)
+    parameters_legend(figure, axes[0, 0], looks)
     return figure
-
-
-def _between_bounds(axes: Axes, rows: Sequence[Estimate], ends: dict[str, Estimate]) -> None:
-    for i, first in enumerate(rows):
-        axes.plot([0, 1], [i, i], color=style.BAND, linewidth=0.8, zorder=0)
-        axes.plot(_share(first, first.start), i, color=style.LIMIT, **_TICK)
-        _bar(axes, i - 0.14 if ends else i, first, first, style.COLOURS[1], "s")
-        if first.name in ends:
-            _bar(axes, i + 0.14, first, ends[first.name], style.COLOURS[0], "o")
-    axes.set_xlim(-0.03, 1.03)
-    axes.set_xticks([0, 0.5, 1], ["lower\nbound", "", "upper\nbound"], fontsize=style.SMALL)
-
-
-def _bar(axes: Axes, y: float, scale: Estimate, estimate: Estimate, colour: str, marker: str) -> None:
-    """An interval and the estimate in it; hollow where the data do not determine the parameter."""
-    if estimate.determined:
-        share = np.clip([_share(scale, v) for v in estimate.interval], 0, 1)
-        axes.plot(share, [y, y], color=colour, linewidth=2, solid_capstyle="butt")
-    face = colour if estimate.determined else "white"
-    axes.plot(
-        np.clip(_share(scale, estimate.value), 0, 1), y, color=colour, marker=marker, markersize=4, markerfacecolor=face
-    )
-
-
-def _share(scale: Estimate, value: float) -> float:
-    """Of the way between the bounds; where one is infinite, between the values that occur."""
-    finite = [v for v in (scale.value, scale.start, *scale.interval) if math.isfinite(v)]
-    low = scale.lower if math.isfinite(scale.lower) else min(finite)
-    high = scale.upper if math.isfinite(scale.upper) else max(finite)
-    return (value - low) / (high - low) if high > low else 0.5
 
 
 def _moves(axes: Axes, rows: Sequence[Estimate], moves: dict[str, float | None], held: set[str]) -> None:

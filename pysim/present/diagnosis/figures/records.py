@@ -3,26 +3,20 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
 
-from pysim.identify import HALF_95
-from pysim.io import shown_unit
 from pysim.present import style
+from pysim.present.overlay import Side, beside_figure
 from pysim.types import BadInput, Diagnosis, ErrorStep, RecordFit
 from pysim.types.answer import PRIOR, REFIT
 
 if TYPE_CHECKING:
-    from matplotlib.artist import Artist
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 _PERIODS = 2.0  # of a stepped sine that are shown
 _STRETCH = 2.0  # s of another log that are shown, where the refitted model fails most
-_SMOOTH = 5  # samples of the running mean that shows what of a residual is more than noise
-_COARSE = 100  # samples up to which a residual needs no running mean
 
 
 def telling_records(diagnosis: Diagnosis) -> list[RecordFit]:
@@ -73,58 +67,13 @@ def overlay_figure(diagnosis: Diagnosis, record: RecordFit) -> Figure:
         raise BadInput(f"overlay figure: {record.source!r} is no record of the diagnosis' base model")
     beside = [(name, same_record(record, step), colour) for name, step, colour in steps_shown(diagnosis)]
     shown = [(name, one, colour) for name, one, colour in beside if one is not None]
-    first = shown[min(1, len(shown) - 1)][1]
-    names = first.measured.names
-    width = 1.2 + 4.6 * max(len(names), 1.4)
-    figure, axes = style.panels(width, 4.8, 2, len(names), sharex=True, height_ratios=(3, 2))
-    part = _stretch(first)
-    handles: dict[str, Artist] = {}
-    for j in range(len(names)):
-        _signal(axes[0, j], shown, j, part, handles)
-        _residual(axes[1, j], shown, j, part)
-    style.legend_above(figure, list(handles.values()), list(handles))
-    return figure
-
-
-def _signal(
-    axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, part: slice, handles: dict[str, Artist]
-) -> None:
-    measured = shown[0][1].measured
-    unit, factor = shown_unit(measured.units[j])
-    (dots,) = axes.plot(
-        measured.time[part],
-        factor * measured.values[part, j],
-        ".",
-        color=style.MEASURED,
-        markersize=2.4,
-        rasterized=True,
-    )
-    handles["measured"] = dots
-    for k, (name, record, colour) in enumerate(shown):
-        (line,) = axes.plot(
-            record.simulated.time[part], factor * record.simulated.values[part, j], color=colour, linewidth=1.5,
-            linestyle=style.DASHES[(len(shown) - 1 - k) % len(style.DASHES)],
-        )  # fmt: skip
-        handles[name] = line
-    axes.set_ylabel(f"{measured.names[j]} ({unit})")
-
-
-def _residual(axes: Axes, shown: Sequence[tuple[str, RecordFit, str]], j: int, part: slice) -> None:
-    """Of all models but the untouched one where there are others: it would hide them."""
-    axes.axhspan(-HALF_95, HALF_95, color=style.BAND, linewidth=0)
-    words = []
-    for name, record, colour in shown[1:] or shown:
-        time, values = record.residual.time[part], record.residual.values[part, j]
-        if values.size > _COARSE:
-            axes.plot(
-                time, values, color=colour, marker=".", linestyle="none", markersize=1.6, alpha=0.5, rasterized=True
-            )
-            values = np.convolve(values, np.ones(_SMOOTH) / _SMOOTH, mode="valid")
-            time = time[_SMOOTH // 2 : _SMOOTH // 2 + values.size]
-        axes.plot(time, values, color=colour, linewidth=1.4)
-        words.append(f"{name} {math.sqrt(float(np.mean(record.residual.values[:, j] ** 2))):.2f}")
-    axes.set_title(f"rms of the whole record: {', '.join(words)}", fontsize=style.SMALL, loc="left", color="#444444")
-    axes.set(xlabel="Time (s)", ylabel="Residual over noise (-)")
+    dashes = reversed(style.DASHES[: len(shown)])  # the last: solid
+    sides = [
+        Side(name, name, one, {"color": colour, "linestyle": dash})
+        for (name, one, colour), dash in zip(shown, dashes, strict=True)
+    ]
+    untouched = [one.name for one in sides[:-1][:1]]  # where there are others its residual would hide theirs
+    return beside_figure(sides, _stretch(sides[len(untouched)].record), hidden=untouched)
 
 
 def _stretch(record: RecordFit) -> slice:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, NamedTuple
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from pysim.io import shown_point
 from pysim.present import style
+from pysim.present.charts import Chart, axis, heat_map
 from pysim.present.diagnosis.figures.records import steps_compared
 from pysim.present.notes import USES
 from pysim.types import BadInput, Dataset, Diagnosis, ErrorStep, RecordFit
@@ -117,13 +119,43 @@ def _draw(axes: Axes, title: str, rows: _Rows, norm: LogNorm) -> AxesImage:
         for j, value in enumerate(row):
             if math.isfinite(value):
                 dark = norm(value) > 0.62
-                axes.text(
-                    j, i, f"{value:.1f}" if value < 99.5 else f"{value:.0f}", ha="center", va="center", fontsize=6.5,
-                    color="white" if dark else "#222222",
-                )  # fmt: skip
+                look: dict[str, Any] = {"fontsize": 6.5, "color": "white" if dark else "#222222"}
+                axes.text(j, i, _cell(value), ha="center", va="center", **look)
     axes.set_xticks(range(len(columns)), columns, fontsize=style.SMALL)
     axes.set_yticks(range(len(rows)), list(rows), fontsize=style.SMALL)
     axes.tick_params(length=0)
     axes.spines[:].set_visible(False)
     axes.set_title(title, fontsize=style.TEXT, loc="left")
     return image
+
+
+def map_chart(
+    rows: Sequence[str],
+    columns: Sequence[str],
+    values: Sequence[Sequence[float | None]],
+    title: str,
+    *,
+    scale: bool = True,
+) -> Chart:
+    """Root-mean-square residual over noise of every test; numbers stand in the cells, so that no colour is needed.
+
+    Args:
+        values: per row, per column; None where no such test was run.
+        title: of the columns.
+        scale: whether a scale of the colours stands beside it.
+    """
+    shown = [[None if v is None else math.log10(max(v, 1.0)) for v in row] for row in values]
+    high = max([10.0, *(v for row in values for v in row if v is not None)])
+    ticks = [t for t in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if t <= high]
+    bar: dict[str, Any] = {"tickvals": [math.log10(t) for t in ticks], "ticktext": [f"{t:g}" for t in ticks]}
+    bar |= {"title": {"text": "residual over noise", "side": "right"}, "thickness": 10, "outlinewidth": 0, "len": 1}
+    colours = {"zmin": 0, "zmax": math.log10(high), "colorscale": "@heat", "colorbar": bar, "showscale": scale}
+    more = {**colours, "hoverongaps": False, "textfont": {"size": 11.5}}
+    more["hovertemplate"] = "%{y}<br>%{x}: %{text} x noise<extra></extra>"
+    text = [["" if v is None else _cell(v) for v in row] for row in values]
+    across = axis(title, type="category", showgrid=False, side="bottom")
+    return heat_map(rows, columns, shown, text, across, more, margin={"l": 40, "r": 10, "t": 10, "b": 46})
+
+
+def _cell(value: float) -> str:
+    return f"{value:.1f}" if value < 99.5 else f"{value:.0f}"

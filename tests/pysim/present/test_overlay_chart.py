@@ -2,18 +2,18 @@
 
 import pytest
 
-from pysim.present.interactive import overlay_figure, signal_trace
+from pysim.present.overlay import overlay_chart, signal_trace
 
 
 def test_without_models_every_signal_has_one_panel_in_the_unit_people_read() -> None:
-    layout = overlay_figure(["x", "<b>"], ["mm", "deg"], [], [])["layout"]
+    layout = overlay_chart(["x", "<b>"], ["mm", "deg"], [], [])["layout"]
     assert [layout[name]["title"]["text"] for name in ("yaxis", "yaxis2")] == ["x (mm)", "&lt;b&gt; (°)"]
     assert "yaxis3" not in layout
     assert layout["shapes"] == []
 
 
 def test_what_is_left_over_stands_below_with_the_band_that_holds_95_percent_of_noise() -> None:
-    layout = overlay_figure(["x"], [""], [("refit", "refitted")], [])["layout"]
+    layout = overlay_chart(["x"], [""], [("refit", "refitted")], [])["layout"]
     assert [layout[name]["title"]["text"] for name in ("yaxis", "yaxis2")] == ["x (–)", "left over<br>(noise s.d.)"]
     assert layout["yaxis2"]["domain"][1] < layout["yaxis"]["domain"][0]
     assert layout["xaxis"]["anchor"] == "y2"

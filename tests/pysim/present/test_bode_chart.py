@@ -11,11 +11,10 @@ import pytest
 from pysim.identify import frequency_deviations
 from pysim.identify.greybox import Measurements, SinePlan, Treatment, problem
 from pysim.identify.greybox.stepped_sines import SteppedSines
-from pysim.present.interactive import bode_figure
-from pysim.present.interactive.bode import reference_place
+from pysim.present.comparison.figures import bode_chart, reference_place
 from pysim.types import Abilities, FrequencyResponse, Model, SineTest, Variable
 from tests.pysim.identify.greybox import measurements
-from tests.pysim.present.interactive.traces import trace
+from tests.pysim.present.looking import trace
 
 F = [0.1, 1.0, 10.0]
 SIDE = {"gain": [2.0, 2.0, 0.2], "phase": [-0.1, -1.0, -2.0]}
@@ -27,7 +26,7 @@ def response(**more: Any) -> dict[str, Any]:
 
 
 def test_a_bode_plot_has_the_band_of_table_1_3_around_what_was_measured() -> None:
-    found = bode_figure(response(), [])
+    found = bode_chart(response(), [])
     assert trace(found, "measured")["y"] == pytest.approx([0, 0, -20])  # dB above 0.1 Hz
     assert trace(found, "measured", "y2")["y"] == pytest.approx([math.degrees(v) for v in SIDE["phase"]])
     for panel, limit in (("y", 2.0), ("y2", 35.0)):
@@ -39,14 +38,14 @@ def test_a_bode_plot_has_the_band_of_table_1_3_around_what_was_measured() -> Non
 
 def test_a_model_a_turn_away_is_drawn_beside_what_was_measured() -> None:
     side = {"gain": [1.0, 0.5, 0.1], "phase": [v + 2 * math.pi for v in SIDE["phase"]]}
-    found = bode_figure(response(), [("refit", "refitted", side)])
+    found = bode_chart(response(), [("refit", "refitted", side)])
     assert trace(found, "refitted", "y2")["y"] == pytest.approx([math.degrees(v) for v in SIDE["phase"]])
     assert trace(found, "refitted")["y"] == pytest.approx([0, 20 * math.log10(0.5), -20])
     assert trace(found, "refitted")["line"]["dash"] != trace(found, "measured")["line"]["dash"]
 
 
 def test_frequencies_have_numbers_wherever_they_lie_and_however_near_one_looks() -> None:
-    found = bode_figure(response(frequency=[250.0, 500.0, 900.0]), [])["layout"]["xaxis"]
+    found = bode_chart(response(frequency=[250.0, 500.0, 900.0]), [])["layout"]["xaxis"]
     assert (found["type"], found["tickformat"]) == ("log", "~g")
     assert {"tickvals", "ticktext", "dtick"}.isdisjoint(found)  # Plotly finds them anew at each zoom
 
@@ -67,7 +66,7 @@ def test_curves_are_as_far_apart_as_the_verdict_says(frequency: tuple[float, ...
     place = judged(frequency)
     judging = frequency_deviations(*sides, reference_hz=None if place is None else frequency[place])
     told = [{"gain": side.gain.tolist(), "phase": [0.0] * 3} for side in sides]
-    found = bode_figure({"frequency": list(frequency), "measured": told[1]}, [("refit", "refitted", told[0])])
+    found = bode_chart({"frequency": list(frequency), "measured": told[1]}, [("refit", "refitted", told[0])])
     apart = np.abs(np.subtract(trace(found, "refitted")["y"], trace(found, "measured")["y"]))
     assert (np.mean(apart), np.max(apart)) == pytest.approx([one.value for one in judging[:2]])
     assert found["layout"]["yaxis"]["title"]["text"] == title

@@ -1,8 +1,8 @@
 """The falling error: numbers are the ledger's."""
 
-from pysim.present.interactive import error_figure
+from pysim.present.diagnosis.figures.error import error_chart
 from pysim.types import ErrorStep
-from tests.pysim.present.interactive.traces import trace
+from tests.pysim.present.looking import trace
 
 STEPS = [
     ErrorStep("prior", 64.0, 46.0, None, {}, True, 1.0),
@@ -12,7 +12,7 @@ STEPS = [
 
 
 def test_the_staircase_has_every_step_and_an_empty_one_for_what_is_being_found() -> None:
-    found = error_figure(STEPS, doing="refitting")
+    found = error_chart(STEPS, doing="refitting")
     assert [v for v in trace(found, "fitted")["y"] if v is not None] == [64, 64, 20, 20, 1, 1]
     words = [note["text"] for note in found["layout"]["annotations"]]
     assert {"<b>64</b>", "<b>46</b>", "<b>20</b>", "<b>1.00</b>", "<b>0.90</b>", "noise alone"} == set(words)
@@ -22,7 +22,7 @@ def test_the_staircase_has_every_step_and_an_empty_one_for_what_is_being_found()
 
 
 def test_logs_that_nobody_looked_at_have_a_line_of_their_own() -> None:
-    found = error_figure(
+    found = error_chart(
         [ErrorStep("prior", 8.0, 7.0, 7.5, {}, True, 1.0), ErrorStep("refit", 4.0, 3.0, 3.5, {}, True, 1.0)]
     )
     assert [v for v in trace(found, "unseen")["y"] if v is not None] == [7.5, 7.5, 3.5, 3.5]
@@ -33,7 +33,7 @@ def test_logs_that_nobody_looked_at_have_a_line_of_their_own() -> None:
 
 
 def test_a_staircase_begins_with_the_place_of_its_first_step() -> None:
-    found = error_figure([], doing="starting")
+    found = error_chart([], doing="starting")
     assert found["data"] == []
     assert found["layout"]["xaxis"]["ticktext"] == ["<i>starting …</i>"]
     box = found["layout"]["shapes"][1]

@@ -2,12 +2,17 @@
 
 import pytest
 
-from pysim.present.interactive import criteria_figure
-from tests.pysim.present.interactive.ledger import STEPS
+from pysim.present.diagnosis.figures.criteria import criteria_chart
+
+STEPS = [
+    {"step": "prior", "fit": 64.0, "validate": 46.0, "criteria": {"E_M max": 4.0, "E_t mean": 3.0}},
+    {"step": "refit", "fit": 20.0, "validate": None, "criteria": {"E_M max": 1.0}},
+    {"step": "a<b>", "fit": 1.0, "validate": 0.9, "criteria": {"E_M max": 0.0, "E_t mean": 0.5}},
+]
 
 
 def test_criteria_stand_over_their_limits_which_are_a_line() -> None:
-    found = criteria_figure(STEPS)
+    found = criteria_chart(STEPS)
     magnitude = [t for t in found["data"] if t["legendgroup"] == "E_M max"]
     assert magnitude[0]["y"][:4] == pytest.approx([2, 2, 0.5, 0.5])  # of 2 dB
     assert magnitude[1]["text"][1] == "maximum magnitude deviation 4 of 2 dB"
