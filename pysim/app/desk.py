@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -11,12 +12,18 @@ from nicegui import run
 
 from pysim.app.answers import Answers
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
-from pysim.app.model_build import Built, build_model
 from pysim.app.project import Project
 from pysim.app.upload import Batch, Limits
+from pysim.app.worker import Ended
 from pysim.identify.data_check import DataCheck, check_dataset
 from pysim.io import read_dataset_partly
 from pysim.types import BadInput
+
+_BUILD_LIMIT = 1200.0  # s: the 900 that fmu_build.pack.compiler grants the first compilation, and more than any takes
+_LATE = (
+    f"the model was not ready within {_BUILD_LIMIT:g} s; the first one on a machine takes some minutes on Windows, and "
+    "what is compiled is kept: use it again, and if that takes as long, try it in a terminal with pysim model"
+)
 
 
 @dataclass(frozen=True)
@@ -154,22 +161,45 @@ class Desk:
             self.changed()
 
     async def read_model(self) -> None:
-        """Build or open the model, and keep what it says of itself; an earlier build that still goes on is ended."""
+        """Let the worker build or open the model, and keep what it says of itself; an earlier build ends."""
         self._build += 1
-        build = self._build
-        self.model, self.model_trouble = None, ""
+        build, worker = self._build, self.runner.worker
+        if self.model_busy:
+            worker.end()
+        self.model, self.sketches, self.model_trouble = None, {}, ""
         self.model_busy = bool(self.project.settings().model)
         self.changed()
         if not self.model_busy:
             return
-        built = Built()
+        model, trouble = None, ""
         try:
-            built = await build_model(self.project, lambda: self._build == build)
-        finally:
-            if self._build == build:
-                self.model, self.sketches = built.model, built.sketches
-                self.model_trouble, self.model_busy = built.trouble, False
-                self.changed()
+            model = await asyncio.wait_for(asyncio.wrap_future(worker.ask("model")), _BUILD_LIMIT)
+        except TimeoutError:
+            trouble = _LATE
+        except BadInput as error:
+            trouble = str(error)
+        except Ended:
+            trouble = "the process that opens the model broke down; use it again, or try pysim model in a terminal"
+        if self._build != build:
+            return
+        if trouble == _LATE:
+            worker.end()
+        self.model, self.model_trouble, self.model_busy = model, trouble, False
+        self.sketches = {str(one["name"]): one["sketch"] for one in (model or {}).get("effects", [])}
+        self.changed()
+
+    async def draw_report(self, name: str) -> None:
+        """Let the worker draw the report of a result.
+
+        Raises:
+            BadInput: something else is being done, or it cannot be drawn.
+        """
+        if self.runner.running is not None or self.model_busy:
+            raise BadInput("wait until the running work has ended; then open the report again")
+        try:
+            await asyncio.wrap_future(self.runner.worker.ask("report", name))
+        except Ended as error:
+            raise BadInput("the report was not finished; open it again") from error
 
 
 def load(project: Project) -> Loaded | None:

@@ -77,6 +77,7 @@ def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
     app.add_static_files("/static", _STATIC)
     app.timer(_TICK, desk.tick)
     app.on_startup(lambda: _announce(words, host, port, address if show else ""))
+    app.on_startup(desk.runner.worker.warm)
     app.on_startup(desk.read_data)
     app.on_startup(desk.read_model)
     app.on_shutdown(desk.runner.close)
@@ -231,8 +232,14 @@ def _routes(desk: Desk) -> None:
         return Response(json.dumps({"x": x, "y": y, "exact": exact}), media_type="application/json")
 
     @app.get("/result/{name}/{file:path}")
-    def result(name: str, file: str) -> Response:
+    async def result(name: str, file: str) -> Response:
         path = (desk.project.folder / "results" / name / file).resolve()
+        answer = next((one for one in desk.answers.all if one.job.work.name == name), None)
+        if answer is not None and file == answer.data["files"]["report"] and not path.is_file():
+            try:
+                await desk.draw_report(name)
+            except BadInput as error:
+                return PlainTextResponse(str(error), 409)
         if not path.is_relative_to((desk.project.folder / "results").resolve()) or not path.is_file():
             return PlainTextResponse("no such file", 404)
         shown = path.suffix in (".html", ".png", ".svg")
