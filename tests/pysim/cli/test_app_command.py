@@ -2,6 +2,7 @@
 
 import shlex
 import sys
+from importlib import import_module
 from pathlib import Path
 
 import pytest
@@ -41,7 +42,7 @@ def test_the_page_shows_the_lines_of_this_environment_for_the_project_s_folder(
 ) -> None:
     pytest.importorskip("nicegui")
     root, served = Path(pysim.cli.__file__).parents[2], {}
-    monkeypatch.setattr("pysim.app.serve", lambda folder, **options: served.update(options))
+    monkeypatch.setattr(import_module("pysim.app"), "serve", lambda folder, **options: served.update(options))
     monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
     monkeypatch.chdir(root)
     assert main(["app", str(tmp_path / "p")]) == 0
