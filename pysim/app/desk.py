@@ -6,6 +6,7 @@ import asyncio
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from nicegui import run
@@ -14,10 +15,11 @@ from pysim.app.answers import Answers
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
 from pysim.app.project import Project
 from pysim.app.upload import Batch, Limits
-from pysim.app.worker import Ended
+from pysim.app.worker import TASKS, Ended
 from pysim.identify.data_check import DataCheck, check_dataset
 from pysim.io import read_dataset_partly
 from pysim.types import BadInput
+from pysim.workflow import command_line
 
 _BUILD_LIMIT = 1200.0  # s: the 900 that fmu_build.pack.compiler grants the first compilation, and more than any takes
 _LATE = (
@@ -46,7 +48,9 @@ class Desk:
     """One per server.
 
     Args:
-        redo: words of the command line -> the line to type in the project's folder.
+        take: gives another project, once this server has it to itself.
+        doing: what goes on that is no job, in words; "" where nothing does.
+        trouble: why the last of it failed.
         taking: whether a drop is being put into the project.
         sketches: of the laws of the effects that fit.
         draft: what was chosen so far for logs that nobody has described.
@@ -57,7 +61,9 @@ class Desk:
     project: Project
     runner: Runner
     limits: Limits
-    redo: Callable[[Sequence[str]], str]
+    take: Callable[[Path], Project] = Project.at
+    doing: str = ""
+    trouble: str = ""
     version: int = 0
     beat: int = 0
     loaded: Loaded | None = None
@@ -77,6 +83,46 @@ class Desk:
         """Something that pages show is other than before."""
         self.version += 1
         self.beat += 1
+
+    def redo(self, words: Sequence[str]) -> str:
+        """The line to type in the project's folder, of words of the command line."""
+        return command_line(words, self.project.folder)
+
+    def open(self, folder: Path, *, tasks: str = TASKS) -> None:
+        """Show another project from now on; nothing of it is read yet.
+
+        Args:
+            tasks: of its worker.
+        Raises:
+            BadInput: work is running, or the project cannot be had.
+        """
+        if self.runner.running is not None or self.taking or self.doing:
+            raise BadInput("wait until the running work has ended, or stop it; then open another project")
+        project = self.take(folder)
+        self.runner.close()
+        fresh = Desk(project, Runner(project, self.runner.limit, tasks), self.limits, self.take)
+        kept = {"version": self.version, "beat": self.beat, "_build": self._build + 1, "_reading": self._reading + 1}
+        vars(self).update(vars(fresh) | kept)  # what the one before still reads is late
+        self.changed()
+
+    async def read(self) -> None:
+        """Read data and model."""
+        await asyncio.gather(self.read_data(), self.read_model())
+
+    async def example(self, name: str) -> None:
+        """Take an example into the project, read it and hold the model beside it; what fails is told as `trouble`."""
+        self.doing, self.trouble = f"Making the example {name}", ""
+        self.changed()
+        try:
+            await asyncio.wrap_future(self.runner.worker.ask("example", name))
+        except (BadInput, Ended) as error:
+            self.trouble = str(error) or "the example was not made; open it again"
+        finally:
+            self.doing = ""
+            self.changed()
+        await self.read()
+        if not self.trouble and not self.model_trouble:
+            self.start(self.work("compare"))
 
     @property
     def answers(self) -> Answers:

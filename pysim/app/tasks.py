@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from collections.abc import Callable, Mapping
 from functools import partial
 from pathlib import Path
@@ -13,6 +14,7 @@ from pysim.app.project import Project
 from pysim.app.worker import said_in
 from pysim.diagnosis import Session, Settings, add, compare, diagnose, learn, rank
 from pysim.io import write_file, write_stages
+from pysim.nouns.example import EXAMPLES, example_folder
 from pysim.present import data, write_report
 from pysim.present.diagnosis import Diagnosed, files
 from pysim.present.diagnosis.words import added_sentence, comparison_sentence, learned_sentence, ranking_sentence
@@ -63,6 +65,18 @@ class Tasks:
         model = model_of(settings.model, libraries)
         known = inside(model, libraries)
         return dict(data(Inside(model, known.class_name, known.slots, known.taken, tuple(libraries))))
+
+    def example(self, name: str) -> None:
+        """Take the logs, the library and the model of an example into the project."""
+        own, coming = EXAMPLES[name], self._project.uploads / "example"
+        shutil.rmtree(coming, ignore_errors=True)
+        shutil.copytree(example_folder(name), coming / "data")
+        self._project.replace_data(coming / "data")
+        for library in own.libraries:
+            shutil.copy(library, coming)
+        self._project.replace_models([coming / library.name for library in own.libraries])
+        names = tuple(f"model/{library.name}" for library in own.libraries)
+        self._project.change(model=own.model, libraries=names, added=())
 
     def step(self, work: Work) -> None:
         """Do a piece of work, with its numbers in the folder of its result."""

@@ -40,18 +40,21 @@ class Worker:
         self._folder, self._tasks = folder, tasks
         self._process: Any = None
         self._open: dict[int, Future[Any]] = {}
+        self._over = threading.Event()  # it has broken down
         self._count = 0
 
     def warm(self) -> Started:
         """Begin it where it does not run; who it is."""
-        if self._process is None or not self._process.is_alive():
+        if self._over.is_set():
+            self.end()
+        if self._process is None:
             context = multiprocessing.get_context("spawn")
             self._pipe, theirs = context.Pipe()
             self._process = context.Process(target=_answer, args=(theirs, str(self._folder), self._tasks))
             self._process.start()
             theirs.close()
-            self._open = {}
-            threading.Thread(target=_listen, args=(self._pipe, self._open), daemon=True).start()
+            self._open, self._over = {}, threading.Event()
+            threading.Thread(target=_listen, args=(self._pipe, self._open, self._over), daemon=True).start()
             atexit.register(self.end)  # else Python would wait for it
         return Started.of(self._process.pid)
 
@@ -73,6 +76,7 @@ class Worker:
     def end(self) -> None:
         """End it with all that it has started, whatever it does."""
         process, self._process = self._process, None
+        self._over.clear()
         atexit.unregister(self.end)
         if process is not None:
             end_all(process.pid, hard=True)
@@ -80,7 +84,7 @@ class Worker:
             process.join()
 
 
-def _listen(pipe: Connection, waiting: dict[int, Future[Any]]) -> None:
+def _listen(pipe: Connection, waiting: dict[int, Future[Any]], over: threading.Event) -> None:
     """Hand answers to those who wait for them, until the process ends."""
     with contextlib.suppress(OSError, EOFError):
         while True:
@@ -88,6 +92,7 @@ def _listen(pipe: Connection, waiting: dict[int, Future[Any]]) -> None:
             future = waiting.pop(number)
             with contextlib.suppress(InvalidStateError):  # nobody waits any more
                 future.set_result(value) if good else future.set_exception(BadInput(value))
+    over.set()
     for future in list(waiting.values()):
         with contextlib.suppress(InvalidStateError):
             future.set_exception(Ended())

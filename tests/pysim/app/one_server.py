@@ -14,8 +14,6 @@ from nicegui import Client, app, background_tasks
 
 from pysim.app import server
 from pysim.app.desk import Desk
-from pysim.app.jobs import Runner
-from pysim.app.project import Project
 from pysim.app.upload import Limits
 from pysim.app.worker import TASKS
 from pysim.cli import main
@@ -25,22 +23,16 @@ _routes = server._routes
 
 def _routes_and_show(desk: Desk) -> None:
     _routes(desk)
-    app.on_shutdown(lambda: desk.runner.close())
 
     @app.post("/tests/show")
     async def show(folder: str, idle: bool, size: int) -> None:
         desk.runner.close()
+        desk.runner.poll()
         for client in list(Client.instances.values()):  # pages of the project before
             client.delete()
-        project = Project.at(Path(folder))
-        runner = Runner(project, tasks="tests.pysim.app.code_tasks:Idle" if idle else TASKS)
-        fresh = Desk(project, runner, Limits(size=size), desk.redo, version=desk.version, beat=desk.beat)
-        fresh._build, fresh._reading = desk._build + 1, desk._reading + 1  # what the one before still reads is late
-        vars(desk).update(vars(fresh))
-        desk.changed()
-        background_tasks.create(desk.read_data())
-        if not idle:
-            background_tasks.create(desk.read_model())
+        desk.limits, desk.doing, desk.taking = Limits(size=size), "", False
+        desk.open(Path(folder), tasks="tests.pysim.app.code_tasks:Idle" if idle else TASKS)
+        background_tasks.create(desk.read_data() if idle else desk.read())
 
 
 server._routes = _routes_and_show

@@ -1,6 +1,8 @@
 """What all pages share: the newest reading of the data counts, and the newest model."""
 
 import asyncio
+import shlex
+import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -20,7 +22,7 @@ def test_an_earlier_reading_that_ends_later_does_not_count(
     order: tuple[int, int], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     project = Project.at(tmp_path)
-    desk = Desk(project, Runner(project, 60.0), Limits(), lambda words: "")
+    desk = Desk(project, Runner(project, 60.0), Limits())
 
     async def story() -> None:
         readings: list[asyncio.Future[Loaded]] = []
@@ -45,7 +47,7 @@ def test_an_earlier_reading_that_ends_later_does_not_count(
 def modelled(tmp_path: Path) -> Iterator[Desk]:
     """With a worker that opens a model by its name alone."""
     project = Project.at(tmp_path / "project")
-    one = Desk(project, Runner(project, 60.0, CODE), Limits(), " ".join)
+    one = Desk(project, Runner(project, 60.0, CODE), Limits())
     yield one
     one.runner.close()
 
@@ -88,3 +90,11 @@ def test_a_build_beyond_its_limit_is_ended_and_the_next_one_goes(
 
 def test_the_first_compilation_has_the_time_that_the_compiler_grants_it() -> None:
     assert pysim.app.desk._BUILD_LIMIT > compiler._LONGEST_S
+
+
+def test_the_lines_to_type_are_of_this_environment_in_the_project_s_folder(
+    modelled: Desk, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    root = Path(pysim.app.desk.__file__).parents[2]
+    monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
+    assert shlex.split(modelled.redo(["locate", "data"]))[1:] == [str(root / "run.py"), "pysim", "locate", "data"]
