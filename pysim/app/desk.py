@@ -2,21 +2,30 @@
 
 from __future__ import annotations
 
+import asyncio
 import os
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
+from pathlib import Path
 from typing import Any
 
 from nicegui import run
 
 from pysim.app.answers import Answers
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
-from pysim.app.model_build import Built, build_model
 from pysim.app.project import Project
 from pysim.app.upload import Batch, Limits
+from pysim.app.worker import TASKS, Ended
 from pysim.identify.data_check import DataCheck, check_dataset
 from pysim.io import read_dataset_partly
 from pysim.types import BadInput
+from pysim.workflow import command_line
+
+_BUILD_LIMIT = 1200.0  # s: the 900 that fmu_build.pack.compiler grants the first compilation, and more than any takes
+_LATE = (
+    f"the model was not ready within {_BUILD_LIMIT:g} s; the first one on a machine takes some minutes on Windows, and "
+    "what is compiled is kept: use it again, and if that takes as long, try it in a terminal with pysim model"
+)
 
 
 @dataclass(frozen=True)
@@ -39,7 +48,9 @@ class Desk:
     """One per server.
 
     Args:
-        redo: words of the command line -> the line to type in the project's folder.
+        take: gives another project, once this server has it to itself.
+        doing: what goes on that is no job, in words; "" where nothing does.
+        trouble: why the last of it failed.
         taking: whether a drop is being put into the project.
         sketches: of the laws of the effects that fit.
         draft: what was chosen so far for logs that nobody has described.
@@ -50,7 +61,9 @@ class Desk:
     project: Project
     runner: Runner
     limits: Limits
-    redo: Callable[[Sequence[str]], str]
+    take: Callable[[Path], Project] = Project.at
+    doing: str = ""
+    trouble: str = ""
     version: int = 0
     beat: int = 0
     loaded: Loaded | None = None
@@ -70,6 +83,46 @@ class Desk:
         """Something that pages show is other than before."""
         self.version += 1
         self.beat += 1
+
+    def redo(self, words: Sequence[str]) -> str:
+        """The line to type in the project's folder, of words of the command line."""
+        return command_line(words, self.project.folder)
+
+    def open(self, folder: Path, *, tasks: str = TASKS) -> None:
+        """Show another project from now on; nothing of it is read yet.
+
+        Args:
+            tasks: of its worker.
+        Raises:
+            BadInput: work is running, or the project cannot be had.
+        """
+        if self.runner.running is not None or self.taking or self.doing:
+            raise BadInput("wait until the running work has ended, or stop it; then open another project")
+        project = self.take(folder)
+        self.runner.close()
+        fresh = Desk(project, Runner(project, self.runner.limit, tasks), self.limits, self.take)
+        kept = {"version": self.version, "beat": self.beat, "_build": self._build + 1, "_reading": self._reading + 1}
+        vars(self).update(vars(fresh) | kept)  # what the one before still reads is late
+        self.changed()
+
+    async def read(self) -> None:
+        """Read data and model."""
+        await asyncio.gather(self.read_data(), self.read_model())
+
+    async def example(self, name: str) -> None:
+        """Take an example into the project, read it and hold the model beside it; what fails is told as `trouble`."""
+        self.doing, self.trouble = f"Making the example {name}", ""
+        self.changed()
+        try:
+            await asyncio.wrap_future(self.runner.worker.ask("example", name))
+        except (BadInput, Ended) as error:
+            self.trouble = str(error) or "the example was not made; open it again"
+        finally:
+            self.doing = ""
+            self.changed()
+        await self.read()
+        if not self.trouble and not self.model_trouble:
+            self.start(self.work("compare"))
 
     @property
     def answers(self) -> Answers:
@@ -154,22 +207,45 @@ class Desk:
             self.changed()
 
     async def read_model(self) -> None:
-        """Build or open the model, and keep what it says of itself; an earlier build that still goes on is ended."""
+        """Let the worker build or open the model, and keep what it says of itself; an earlier build ends."""
         self._build += 1
-        build = self._build
-        self.model, self.model_trouble = None, ""
+        build, worker = self._build, self.runner.worker
+        if self.model_busy:
+            worker.end()
+        self.model, self.sketches, self.model_trouble = None, {}, ""
         self.model_busy = bool(self.project.settings().model)
         self.changed()
         if not self.model_busy:
             return
-        built = Built()
+        model, trouble = None, ""
         try:
-            built = await build_model(self.project, lambda: self._build == build)
-        finally:
-            if self._build == build:
-                self.model, self.sketches = built.model, built.sketches
-                self.model_trouble, self.model_busy = built.trouble, False
-                self.changed()
+            model = await asyncio.wait_for(asyncio.wrap_future(worker.ask("model")), _BUILD_LIMIT)
+        except TimeoutError:
+            trouble = _LATE
+        except BadInput as error:
+            trouble = str(error)
+        except Ended:
+            trouble = "the process that opens the model broke down; use it again, or try pysim model in a terminal"
+        if self._build != build:
+            return
+        if trouble == _LATE:
+            worker.end()
+        self.model, self.model_trouble, self.model_busy = model, trouble, False
+        self.sketches = {str(one["name"]): one["sketch"] for one in (model or {}).get("effects", [])}
+        self.changed()
+
+    async def draw_report(self, name: str) -> None:
+        """Let the worker draw the report of a result.
+
+        Raises:
+            BadInput: something else is being done, or it cannot be drawn.
+        """
+        if self.runner.running is not None or self.model_busy:
+            raise BadInput("wait until the running work has ended; then open the report again")
+        try:
+            await asyncio.wrap_future(self.runner.worker.ask("report", name))
+        except Ended as error:
+            raise BadInput("the report was not finished; open it again") from error
 
 
 def load(project: Project) -> Loaded | None:

@@ -1,28 +1,30 @@
-"""Work in a process of its own: the command line itself, followed by what it writes, stopped when the user asks."""
+"""Work that the worker does: followed by what it writes, stopped when the user asks."""
 
 from __future__ import annotations
 
 import contextlib
 import hashlib
 import json
-import subprocess
 import time
 from collections.abc import Mapping, Sequence
+from concurrent.futures import Future
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from pysim.app.disk import remove
-from pysim.app.processes import Started, end, last_words, run_pysim
+from pysim.app.processes import Started, last_words
 from pysim.app.project import Project
+from pysim.app.worker import TASKS, Ended, Worker
 from pysim.io import write_file
 from pysim.types import BadInput
 
 RUNNING, DONE, STOPPED, FAILED = "running", "done", "stopped", "failed"
-_JOB, _EVENTS, _OUTPUT = "job.json", "events.jsonl", "output.txt"
+_JOB = "job.json"
 _EARLIER = "earlier.jsonl"  # events before the job was stopped, until it has come as far again
-ANSWER, RECORDS, REPORT = "answer.json", "records.npz", "report.html"
-_PATIENCE = 3.0  # s between asking a process to end and ending it
+ANSWER, RECORDS, EVENTS, OUTPUT = "answer.json", "records.npz", "events.jsonl", "output.txt"
+REPORT = "report"  # folder of what can be taken away, and of the checkpoint
+_PATIENCE = 3.0  # s between asking a process that somebody else has begun to end, and ending it
 
 
 @dataclass(frozen=True)
@@ -32,7 +34,7 @@ class Work:
     Args:
         name: of the result's folder.
         title: for people.
-        words: of the command line, behind `pysim`.
+        words: of the command line that does the same, behind `pysim`.
         effects: that the model has when it is done, as far as that was asked for.
     """
 
@@ -40,6 +42,11 @@ class Work:
     title: str
     words: tuple[str, ...]
     effects: tuple[str, ...] = ()
+
+    @property
+    def kind(self) -> str:
+        """compare, locate, rank, diagnose or add."""
+        return "add" if self.effects else self.name
 
 
 @dataclass(frozen=True)
@@ -119,8 +126,8 @@ def adding(project: Project, effects: Sequence[str]) -> Work:
 def _work(command: str, title: str, words: Sequence[str], name: str = "") -> Work:
     """With all results in a folder of its own, the report and the model in one within it that is the answer's alone."""
     folder = f"results/{name or command}"
-    files = ["--json", f"{folder}/{ANSWER}", "--records", f"{folder}/{RECORDS}", "--events", f"{folder}/{_EVENTS}"]
-    return Work(name or command, title, (command, *words, *files, "--output", f"{folder}/report"))
+    files = ["--json", f"{folder}/{ANSWER}", "--records", f"{folder}/{RECORDS}", "--events", f"{folder}/{EVENTS}"]
+    return Work(name or command, title, (command, *words, *files, "--output", f"{folder}/{REPORT}"))
 
 
 def read_job(folder: Path) -> Job | None:
@@ -148,7 +155,7 @@ def _write_job(job: Job, folder: Path) -> None:
 
 def _with_events(job: Job, folder: Path) -> Job:
     """With what its events say; a job that goes on keeps the steps it had found until it has found them again."""
-    lines = _lines(folder / _EVENTS)
+    lines = _lines(folder / EVENTS)
     steps = _steps(lines)
     steps += _steps(_lines(folder / _EARLIER))[len(steps) :]
     if not lines:
@@ -172,24 +179,30 @@ def _steps(lines: Sequence[Mapping[str, Any]]) -> tuple[dict[str, Any], ...]:
 
 @dataclass
 class Runner:
-    """Runs one piece of work at a time.
+    """Lets the worker do one piece of work at a time.
 
     Args:
         project: whose.
-        limit: s after which a process is ended.
+        limit: s after which work is stopped.
+        tasks: of the worker.
     """
 
     project: Project
     limit: float = 3600.0
-    _process: subprocess.Popen[bytes] | None = field(default=None, repr=False)
+    tasks: str = TASKS
+    worker: Worker = field(init=False, repr=False)
+    _answer: Future[Any] | None = field(default=None, repr=False)
     _job: Job | None = None
-    _stop_asked: float | None = None
+    _stopped: bool = False
     _seen: tuple[float, int] = (0.0, 0)
+
+    def __post_init__(self) -> None:
+        self.worker = Worker(self.project.folder, self.tasks)
 
     @property
     def running(self) -> Job | None:
         """The job that runs, with its events; None where none does."""
-        return self._job if self._process is not None else None
+        return self._job if self._answer is not None else None
 
     def start(self, work: Work) -> None:
         """Begin.
@@ -197,8 +210,8 @@ class Runner:
         Raises:
             BadInput: something runs already, here or in the folder of the result, or another program has a file of it.
         """
-        if self._process is not None and self._job is not None:
-            raise BadInput(f"{self._job.work.title} is running; wait for it, or stop it first")
+        if self.running is not None:
+            raise BadInput(f"{self.running.work.title} is running; wait for it, or stop it first")
         folder, now = self.project.results(work.name), self.project.fingerprint()
         before = read_job(folder)
         if before is not None and before.process is not None and before.lives:
@@ -208,38 +221,30 @@ class Runner:
         folder.mkdir(parents=True, exist_ok=True)
         _put_by(folder)
         job = _with_events(Job(work, RUNNING, time.time(), None, now, stage="starting"), folder)
-        with (folder / _OUTPUT).open("wb") as output:
-            process = run_pysim(work.words, self.project.folder, output)
-        job = replace(job, process=Started.of(process.pid))
-        try:
-            _write_job(job, folder)
-        except OSError:
-            end(process, hard=True)  # nobody could find it again
-            raise
-        self._process, self._job, self._stop_asked = process, job, None
+        job = replace(job, process=self.worker.warm())
+        _write_job(job, folder)
+        self._answer, self._job, self._stopped = self.worker.ask("step", work), job, False
 
     def stop(self) -> None:
-        """Ask the process to end; what it has found stays in its checkpoint."""
-        if self._process is not None and self._stop_asked is None:
-            self._stop_asked = time.monotonic()
-            end(self._process, hard=False)
+        """End the worker; what it has found stays in its checkpoint."""
+        if self._answer is not None:
+            self._stopped = True
+            self.worker.end()
 
     def poll(self) -> bool:
         """See how far it is; whether anything is new."""
-        if self._process is None or self._job is None:
+        if self._answer is None or self._job is None:
             return False
         folder = self.project.results(self._job.work.name)
-        if self._stop_asked is not None and time.monotonic() - self._stop_asked > _PATIENCE:
-            end(self._process, hard=True)
-        elif self._stop_asked is None and self._job.seconds > self.limit:
+        if not self._stopped and self._job.seconds > self.limit:
             self._job = replace(self._job, message=f"it took longer than {self.limit:g} s; run it on the command line")
             self.stop()
-        code = self._process.poll()
-        if code is not None:
-            self._end(code, folder)
+        if self._answer.done():
+            self._end(self._answer.exception(), folder)
+            self.worker.warm()
             return True
         with contextlib.suppress(OSError):
-            stat = (folder / _EVENTS).stat()
+            stat = (folder / EVENTS).stat()
             if (stat.st_mtime, stat.st_size) != self._seen:
                 self._seen = (stat.st_mtime, stat.st_size)
                 self._job = _with_events(self._job, folder)
@@ -247,34 +252,27 @@ class Runner:
         return False
 
     def close(self) -> None:
-        """End what runs, now."""
-        if self._process is not None:
-            end(self._process, hard=False)
-            with contextlib.suppress(subprocess.TimeoutExpired):
-                self._process.wait(_PATIENCE)
-            end(self._process, hard=True)
-            self._process.wait()
-            self._stop_asked = self._stop_asked or time.monotonic()
-            self.poll()
+        """End the worker, and write what that ended."""
+        self.stop()
+        self.worker.end()
+        if self._answer is not None and self._job is not None:
+            self._end(self._answer.exception(_PATIENCE), self.project.results(self._job.work.name))
 
-    def _end(self, code: int, folder: Path) -> None:
+    def _end(self, error: BaseException | None, folder: Path) -> None:
         assert self._job is not None
-        assert self._process is not None
-        end(self._process, hard=True)  # whatever it has left behind
-        self._process, job = None, _with_events(self._job, folder)
-        finished = (folder / ANSWER).is_file() and code in (0, 1)
-        state, message = (DONE, "") if finished else (FAILED, job.message)
-        if self._stop_asked is not None and not finished:
-            state = FAILED if job.message else STOPPED
-        elif not finished:
-            message = last_words(folder / _OUTPUT)
+        self._answer, job = None, _with_events(self._job, folder)
+        state, message = (DONE, "") if error is None else (FAILED, job.message or str(error))
+        if error is not None and self._stopped and not job.message:
+            state, message = STOPPED, ""
+        elif isinstance(error, Ended) and not job.message:
+            message = last_words(folder / OUTPUT)
         self._job = replace(job, state=state, ended=time.time(), message=message, process=None)
         _write_job(self._job, folder)
 
 
 def _put_by(folder: Path) -> None:
     """The events so far make room for the one to come."""
-    events, earlier = folder / _EVENTS, folder / _EARLIER
+    events, earlier = folder / EVENTS, folder / _EARLIER
     if events.is_file() and len(_steps(_lines(events))) >= len(_steps(_lines(earlier))):
         events.replace(earlier)
     events.unlink(missing_ok=True)

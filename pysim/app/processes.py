@@ -1,4 +1,4 @@
-"""The command line in a process of its own, and the end of it with all that it has started."""
+"""The worker seen from outside: whether it still runs, and the end of it with all that it has started."""
 
 from __future__ import annotations
 
@@ -8,49 +8,18 @@ import signal
 import subprocess
 import sys
 import time
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from pysim.app.began import began
 
 _TASKKILL_LIMIT = 10.0  # s; it answers at once
 _NAP = 0.02  # s
-_ENCODING = "utf-8:backslashreplace"  # of what a command says, as `last_words` reads it; Windows would take a code page
-
-
-def run_pysim(words: Sequence[str], folder: Path, output: Any) -> subprocess.Popen[bytes]:
-    """`pysim` with these words in a process of its own, in that folder; nothing of the folder is imported."""
-    root = str(Path(__file__).resolve().parents[2])
-    path = os.pathsep.join([root, *filter(None, [os.environ.get("PYTHONPATH")])])
-    environment = {**os.environ, "PYTHONPATH": path, "PYTHONUNBUFFERED": "1", "PYTHONIOENCODING": _ENCODING}
-    command = [sys.executable, "-P", "-m", "pysim", *words]
-    own: dict[str, Any] = {"creationflags": 0x200} if sys.platform == "win32" else {}  # CREATE_NEW_PROCESS_GROUP
-    return subprocess.Popen(
-        command, cwd=folder, env=environment, stdin=subprocess.DEVNULL, stdout=output, stderr=subprocess.STDOUT,
-        start_new_session=True, **own,
-    )  # fmt: skip
-
-
-def end(process: subprocess.Popen[bytes], *, hard: bool) -> None:
-    """End a process with all that it has started.
-
-    Args:
-        process: of `run_pysim`; where it has ended already, what it left is ended, but on Windows nobody can tell that.
-        hard: False only asks; Windows knows no asking and ends them at once.
-    """
-    if sys.platform != "win32":
-        _end_all(process.pid, hard=hard)
-    elif process.poll() is None:  # children are found by a parent that still runs
-        _end_all(process.pid, hard=hard)
-        with contextlib.suppress(OSError):
-            process.kill()
 
 
 @dataclass(frozen=True)
 class Started:
-    """A process of `run_pysim`, told from a later one that has got its number.
+    """A worker, told from a later one that has got its number.
 
     Args:
         pid: its number.
@@ -78,10 +47,10 @@ class Started:
         """
         if not self.lives:
             return True
-        _end_all(self.pid, hard=False)
+        end_all(self.pid, hard=False)
         gone = self._gone(patience)
         if not gone or sys.platform != "win32":
-            _end_all(self.pid, hard=True)  # also whatever it has left behind
+            end_all(self.pid, hard=True)  # also whatever it has left behind
         return gone or self._gone(patience)
 
     def _gone(self, patience: float) -> bool:
@@ -93,7 +62,8 @@ class Started:
         return True
 
 
-def _end_all(pid: int, *, hard: bool) -> None:
+def end_all(pid: int, *, hard: bool) -> None:
+    """End the processes of a group, or ask them to; on Windows, which knows no asking, a process and its children."""
     if sys.platform != "win32":
         with contextlib.suppress(OSError):
             os.killpg(pid, signal.SIGKILL if hard else signal.SIGTERM)
@@ -104,10 +74,9 @@ def _end_all(pid: int, *, hard: bool) -> None:
 
 
 def last_words(path: Path) -> str:
-    """What a command said in the end, for a user."""
+    """What a process said before it broke down, for a user."""
     with contextlib.suppress(OSError):
         lines = path.read_text(encoding="utf-8", errors="replace").splitlines()
-        said = [line for line in lines if line.startswith("pysim")]
-        if said or lines:
-            return (said or lines)[-1].partition(": ")[2] or (said or lines)[-1]
+        if lines:
+            return f"the process broke down: {lines[-1]}"
     return "the process ended without a word; look at output.txt in the folder of the result"

@@ -89,6 +89,11 @@ class Project:
         """The data set's dataset.toml."""
         return self.data / "dataset.toml"
 
+    @property
+    def empty(self) -> bool:
+        """Whether nothing was dropped or named yet."""
+        return not self.data.exists() and not self.settings().model
+
     def results(self, name: str) -> Path:
         """The folder of one result."""
         return self.folder / "results" / name

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import asyncio
+import contextlib
 import json
 import shutil
 import socket
 import webbrowser
-from collections.abc import Callable, Sequence
 from pathlib import Path
 from secrets import token_urlsafe
 
@@ -23,6 +23,7 @@ from pysim.app.jobs import Runner, settle
 from pysim.app.lock import held
 from pysim.app.pages.shell import shell
 from pysim.app.project import Project
+from pysim.app.recent import remember
 from pysim.app.records import MOST, Overlay, compared_overlay, measured_overlay
 from pysim.app.upload import Adopted, Batch, Limits, adopt, announced
 from pysim.io import counted
@@ -38,7 +39,6 @@ _BROKE_OFF = "the drop broke off, or another one has begun since; drop it again"
 def serve(
     folder: Path,
     *,
-    redo: Callable[[Sequence[str]], str],
     host: str = "127.0.0.1",
     port: int = 0,
     show: bool = True,
@@ -49,7 +49,6 @@ def serve(
 
     Args:
         folder: of the project; made where it is missing.
-        redo: words of the command line -> the line to type in that folder.
         host: to listen at; loopback unless others are to come in, who need the token as well.
         port: 0 takes a free one.
         show: whether to open the browser.
@@ -58,13 +57,42 @@ def serve(
     Raises:
         BadInput: a folder that is no project or that another server has, or a port that is taken.
     """
-    project = Project.at(folder)
-    with held(project.folder) as tell:
-        port = free_port(host, port)
-        tell(page_address(host, port))
-        settle(project)
-        shutil.rmtree(project.uploads, ignore_errors=True)  # what came in half when a server ended
-        _run(Desk(project, Runner(project, limit_s), limits, redo), host, port, show=show)
+    Project.at(folder)  # what is no project is refused first
+    port = free_port(host, port)
+    with Holder(page_address(host, port)) as holder:
+        project = holder.take(folder)
+        _run(Desk(project, Runner(project, limit_s), limits, holder.take), host, port, show=show)
+
+
+class Holder(contextlib.ExitStack):
+    """The project that this server has to itself: one at a time.
+
+    Args:
+        address: of the page, which another server that wants the project is told.
+    """
+
+    def __init__(self, address: str) -> None:
+        super().__init__()
+        self._address, self._has = address, Path()
+
+    def take(self, folder: Path) -> Project:
+        """Have another project in place of the one before.
+
+        Raises:
+            BadInput: a folder that is no project, or that another server has.
+        """
+        project = Project.at(folder)
+        if project.folder == self._has:
+            return project
+        with contextlib.ExitStack() as new:
+            new.enter_context(held(project.folder))(self._address)
+            settle(project)
+            shutil.rmtree(project.uploads, ignore_errors=True)  # what came in half when a server ended
+            self.close()
+            self.push(new.pop_all())
+        self._has = project.folder
+        remember(project.folder)
+        return project
 
 
 def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
@@ -77,9 +105,9 @@ def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
     app.add_static_files("/static", _STATIC)
     app.timer(_TICK, desk.tick)
     app.on_startup(lambda: _announce(words, host, port, address if show else ""))
-    app.on_startup(desk.read_data)
-    app.on_startup(desk.read_model)
-    app.on_shutdown(desk.runner.close)
+    app.on_startup(desk.runner.worker.warm)
+    app.on_startup(desk.read)
+    app.on_shutdown(lambda: desk.runner.close())  # of the project that is shown then
     ui.run(
         root=lambda: shell(desk),
         host=host,
@@ -231,8 +259,14 @@ def _routes(desk: Desk) -> None:
         return Response(json.dumps({"x": x, "y": y, "exact": exact}), media_type="application/json")
 
     @app.get("/result/{name}/{file:path}")
-    def result(name: str, file: str) -> Response:
+    async def result(name: str, file: str) -> Response:
         path = (desk.project.folder / "results" / name / file).resolve()
+        answer = next((one for one in desk.answers.all if one.job.work.name == name), None)
+        if answer is not None and file == answer.data["files"]["report"] and not path.is_file():
+            try:
+                await desk.draw_report(name)
+            except BadInput as error:
+                return PlainTextResponse(str(error), 409)
         if not path.is_relative_to((desk.project.folder / "results").resolve()) or not path.is_file():
             return PlainTextResponse("no such file", 404)
         shown = path.suffix in (".html", ".png", ".svg")

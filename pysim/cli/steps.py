@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -90,7 +89,7 @@ def run_step(
         KeyboardInterrupt: stopped by the user; says how to go on.
     """
     from pysim.present.diagnosis import Diagnosed
-    from pysim.present.progress import Unfolding, announce_compilation
+    from pysim.present.progress import EventFile, Unfolding, announce_compilation
     from pysim.types import ProgressEvent
     from pysim.workflow import whole_answer
 
@@ -138,26 +137,3 @@ def _conditions(given: Given, parts: SessionParts) -> dict[str, str]:
         "command": given.repeated,
     }
     return {**found, "seed": str(given.seed)} if "seed" in given else found
-
-
-class EventFile:
-    """Progress as lines of JSON that another program can follow.
-
-    Each has `seconds` since the begin, `stage`, `text`, and `step` of the error history (or null).
-    """
-
-    def __init__(self, path: Path) -> None:
-        self._path, self._begun = path, time.monotonic()
-        path.write_text("", encoding="utf-8")
-
-    def __call__(self, event: ProgressEvent) -> None:
-        """Write one line at once, so that a reader sees it whole or not at all."""
-        import json
-
-        from pysim.types import step_data
-
-        elapsed = time.monotonic() - self._begun
-        step = None if event.step is None else step_data(event.step)
-        line = {"seconds": round(elapsed, 3), "stage": event.stage, "text": event.text, "step": step}
-        with self._path.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(line) + "\n")

@@ -15,6 +15,7 @@ from pysim.effects import Slot
 from pysim.identify import THESIS_REFERENCE_HZ
 from pysim.identify.greybox import Measurements, Parameter, Problem, Rest, Threads, Treatment, problem
 from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.problem import beside
 from pysim.types import BadInput, Dataset, Effect, MeasuredRecord, Model, Note, NoteCode
 
 # Effects -> the model that has them, and effect name -> the name ahead of its parameters there.
@@ -68,7 +69,8 @@ class Session:
         assert self.unseen is not None
         records = tuple(replace(record, use="fit") for record in self.unseen.dataset.records)
         data = replace(self.unseen, dataset=replace(self.unseen.dataset, records=records))
-        return replace(problem(self.model, [data], self.parameters, treatment=self.treatment), model=model, space=space)
+        own = problem(self.model, [data], self.parameters, treatment=self.treatment)
+        return replace(beside(own, model, self.parameters), space=space)
 
     @cached_property
     def problems(self) -> tuple[Problem, Problem]:

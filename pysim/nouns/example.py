@@ -1,7 +1,10 @@
-"""Measurements that come along, to try everything on."""
+"""Measurements that come along, to try everything on: each of a machine that has something its model lacks."""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,65 +14,121 @@ from pysim.types import BadInput, Dataset, Experiment, MeasuredRecord, MeasuredS
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
-PUMP = "HydraulicTestBench.Pump.FreeGreyBox"
-_DEAD_BAND = 0.02  # half width over the valve's stroke
-_NOISE = {"alphaPercent": 0.05, "u": 0.005}  # %, V
-_RATE_HZ, _SECONDS = 200, 8.0
+_HOME = Path(__file__).parent / "examples"
+_ROWS = 1600  # of a log
+_KNOTS = 32  # of the command along a log
 _LOGS = (("first.csv", "fit"), ("second.csv", "fit"), ("third.csv", "test"))
+_FORM = 2  # changes when the logs would be other ones
+
+
+@dataclass(frozen=True)
+class Example:
+    """A machine that is simulated.
+
+    Args:
+        model: class that lacks it.
+        lacks: effect that the machine has -> parameter of it, and its value.
+        command: of the machine.
+        wave: of the command: middle, standard deviation, lowest and highest value, in its unit.
+        seconds: of a log.
+        noise: output -> standard deviation of its sensor, in its unit.
+        other: parameters in which the machine differs from the model -> factor.
+        file: with the model's library; "" for the library that comes along.
+    """
+
+    model: str
+    lacks: tuple[str, str, float]
+    command: str
+    wave: tuple[float, float, float, float]
+    seconds: float
+    noise: Mapping[str, float]
+    other: Mapping[str, float] = field(default_factory=dict)
+    file: str = ""
+
+    @property
+    def libraries(self) -> tuple[Path, ...]:
+        """That the model needs beside the one that comes along."""
+        return (_HOME / self.file,) if self.file else ()
+
+
+EXAMPLES = {
+    "pump": Example(
+        "HydraulicTestBench.Pump.FreeGreyBox", ("valve.deadband", "u_0", 0.02), "alphaCMD", (40, 12, 0, 80), 8.0,
+        {"alphaPercent": 0.05, "u": 0.005}, {"K_p": 1.05, "A_p": 0.97},
+    ),
+    "drive": Example(
+        "Drive.Axis", ("axis.friction", "F_c", 60.0), "x_ref", (0, 0.004, -0.02, 0.02), 6.0,
+        {"x": 2e-6, "i": 0.01}, {"m": 1.08, "d": 0.8, "J": 1.03}, "Drive.mo",
+    ),
+    "heater": Example(
+        "Heater.Block", ("heater.deadtime", "tau", 3.0), "P", (200, 120, 0, 600), 800.0,
+        {"T_p": 0.05, "T_b": 0.05}, {"C_b": 1.1, "h": 0.9}, "Heater.mo",
+    ),
+}  # fmt: skip
 
 
 def example(name: str) -> Any:
-    """Measurements to try: "pump", three logs of a pump whose valve has something that its model lacks.
+    """Three logs of a machine that has something its model lacks: "pump", "drive" or "heater".
 
-    The logs are simulated, with noise, by a pump whose parameters differ from the model's too; the first call makes
-    them, in the cache.
+    The logs are simulated, with noise, and the machine's parameters differ from the model's too; the first call makes
+    them, in the cache. `EXAMPLES[name]` of this file says which model and which library belong to them.
 
     Raises:
         BadInput: there is no example of that name.
     """
-    if name != "pump":
-        raise BadInput(f'example: there is no {name!r}; write "pump"', argument="name")
-    from pysim.io import cache_folder, write_dataset
     from pysim.nouns.data import load
 
-    folder = cache_folder("examples") / "pump-1"
+    return load(example_folder(name))
+
+
+def example_folder(name: str) -> Path:
+    """The data set of an example; made where it is missing.
+
+    Raises:
+        BadInput: there is no example of that name.
+    """
+    from pysim.io import cache_folder, write_dataset
+
+    if name not in EXAMPLES:
+        raise BadInput(f"example: there is no {name!r}; write {' or '.join(EXAMPLES)}", argument="name")
+    folder = cache_folder("examples") / f"{name}-{_FORM}"
     if not (folder / "dataset.toml").exists():
-        write_dataset(folder, pump_logs())
-    return load(folder)
+        write_dataset(folder, logs(name))
+    return folder
 
 
-def pump_logs() -> Dataset:
-    """The logs: a random command from rest, and the angle that follows."""
+def logs(name: str) -> Dataset:
+    """The logs of an example: a random command from rest, and what follows."""
     from pysim.simulate import Rodas, simulate
     from pysim.workflow import Variants, inside, model_of, named, with_standard
 
-    base = model_of(PUMP)
-    plant, places = Variants(PUMP, tuple(with_standard(()))).build(named(["valve.deadband"], inside(base)))
+    own = EXAMPLES[name]
+    base, (effect, size, value) = model_of(own.model, own.libraries), own.lacks
+    variants = Variants(own.model, tuple(with_standard(own.libraries)))
+    machine, places = variants.build(named([effect], inside(base, own.libraries)))
+    other = {name: factor * (base[name].start or 0.0) for name, factor in own.other.items()}
+    other[f"{places[effect]}.{size}"] = value
     rng, records = np.random.default_rng(1), []
-    times = np.arange(0.0, _SECONDS, 1 / _RATE_HZ)
-    other = {"K_p": 1.05 * (base["K_p"].start or 0.0), "A_p": 0.97 * (base["A_p"].start or 0.0)}
-    other[f"{places['valve.deadband']}.u_0"] = _DEAD_BAND
+    times = np.linspace(0.0, own.seconds, _ROWS, endpoint=False)
+    units = {name: base[name].unit for name in (own.command, *own.noise)}
     for source, use in _LOGS:
-        command = _command(rng)
-        drives = {"alphaCMD": command}
-        run = Experiment(times, tuple(_NOISE), drives, other, start=-1.0, rates=base.rate_inputs(drives))
-        clean = simulate(plant, run, solver=Rodas(rtol=1e-7, atol=1e-7))
-        read = [clean[name] + sd * rng.standard_normal(times.size) for name, sd in _NOISE.items()]
+        command = _command(own, rng)
+        drives = {own.command: command}
+        run = Experiment(times, tuple(own.noise), drives, other, start=-1.0, rates=machine.rate_inputs(drives))
+        clean = simulate(machine, run, solver=Rodas(rtol=1e-7, atol=1e-9))
+        read = [clean[name] + sd * rng.standard_normal(times.size) for name, sd in own.noise.items()]
         values = np.column_stack([command.value(times), *read])
-        log = Record(times, values, ("alphaCMD", *_NOISE), ("%", "%", "1"), origin="simulated, with noise")
+        log = Record(times, values, tuple(units), tuple(units.values()), origin="simulated, with noise")
         records.append(MeasuredRecord(source, "stochastic", use, log))
-    signals = (
-        MeasuredSignal("alphaCMD", "input", "%", "swash plate angle wanted", "alphaCMD"),
-        MeasuredSignal("alphaPercent", "output", "%", "swash plate angle", "alphaPercent", _NOISE["alphaPercent"]),
-        MeasuredSignal("u", "output", "1", "command of the valve", "u", _NOISE["u"]),
-    )
-    about = "A pump, simulated with noise, whose valve has an overlap of 2 percent"
-    return Dataset("pump-example", about, "pump", signals, tuple(records))
+    signals = [MeasuredSignal(own.command, "input", units[own.command], base[own.command].description, own.command)]
+    signals += [MeasuredSignal(n, "output", units[n], base[n].description, n, sd) for n, sd in own.noise.items()]
+    return Dataset(f"{name}-example", "Simulated, with noise", name, tuple(signals), tuple(records))
 
 
-def _command(rng: np.random.Generator) -> Signal:
-    """A smooth random wave around 40 %, from 0 % at rest."""
-    knots = np.arange(0.0, _SECONDS + 0.5, 0.25)
-    values: NDArray[np.float64] = 40 + 12 * rng.standard_normal(knots.size)
+def _command(own: Example, rng: np.random.Generator) -> Signal:
+    """A smooth random wave from 0 at rest."""
+    middle, sd, lowest, highest = own.wave
+    knots = np.linspace(0.0, own.seconds * (1 + 2 / _KNOTS), _KNOTS + 3)
+    values: NDArray[np.float64] = middle + sd * rng.standard_normal(knots.size)
     values[:2] = 0.0
-    return Signal.through(knots, np.clip(values, 0.0, 80.0))
+    return Signal.through(knots, np.clip(values, lowest, highest))

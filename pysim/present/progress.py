@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import logging
 import sys
 import threading
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from pathlib import Path
 from types import TracebackType
 from typing import Any, Self
 
-from pysim.types import ErrorStep, ProgressEvent
+from pysim.types import ErrorStep, ProgressEvent, step_data
 
 Listener = Callable[[ProgressEvent], None]
 Progress = Callable[[ProgressEvent], object] | bool | None
@@ -218,3 +220,22 @@ def _bars(steps: Sequence[ErrorStep]) -> list[str]:
         bar = "#" * round(_BAR * max(0.0, log(max(value, 1e-9))) / top)
         lines.append(f"  {step_name(step.step):<24} {value:7.2f} {bar:<{_BAR}}{held}".rstrip())
     return [f"  {'residual over noise':<24}", *lines] if lines else []
+
+
+class EventFile:
+    """Progress as lines of JSON that another program can follow.
+
+    Each has `seconds` since the begin, `stage`, `text`, and `step` of the error history (or null).
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path, self._begun = path, time.monotonic()
+        path.write_text("", encoding="utf-8")
+
+    def __call__(self, event: ProgressEvent) -> None:
+        """Write one line at once, so that a reader sees it whole or not at all."""
+        elapsed = time.monotonic() - self._begun
+        step = None if event.step is None else step_data(event.step)
+        line = {"seconds": round(elapsed, 3), "stage": event.stage, "text": event.text, "step": step}
+        with self._path.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(line) + "\n")

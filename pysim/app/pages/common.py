@@ -38,6 +38,8 @@ def busy(desk: Desk) -> str:
     """Why nothing can be started now; "" where something can."""
     if desk.runner.running is not None:
         return f"{desk.runner.running.work.title} is running"
+    if desk.doing:
+        return desk.doing
     check = desk.loaded.check if desk.loaded else None
     if check is None or not check.records:
         return "Drop a data set first"
@@ -50,6 +52,8 @@ def busy(desk: Desk) -> str:
 
 def ended(desk: Desk) -> None:
     """What became of the last piece of work, where that needs words; how to go on."""
+    if desk.trouble:
+        note(desk.trouble, "bad")
     for work in desk.answers.unreadable:
         note(f'"{work.title}" was done by another version, and its result cannot be read here; run it again.', "bad")
     job = desk.last if desk.last is not None and desk.last.state in (FAILED, STOPPED) else None

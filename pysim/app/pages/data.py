@@ -12,6 +12,7 @@ from pysim.app.description import change_description, hold_out, leave_out, read_
 from pysim.app.desk import Desk, Loaded
 from pysim.app.pages.bare import describe_form
 from pysim.app.pages.common import amount, attempt, busy, ended, start
+from pysim.app.pages.start import examples, projects
 from pysim.app.parts import Chart, Choice, Drop, Table, box, button, card, head, live, note, quantity, say, text
 from pysim.app.records import MOST, measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
@@ -27,6 +28,7 @@ def data_page(desk: Desk) -> None:
     """Data and model."""
     preview: dict[str, int] = {}
     head("Data and model", "Drop what the bench has logged, name the model, and look at what was read.")
+    live(lambda: (desk.project.empty, desk.doing), lambda: examples(desk) if desk.project.empty else None, "gap")
     live(lambda: desk.version, lambda: _ready(desk), "gap")
     Drop(
         "Drop a data set here",
@@ -36,6 +38,7 @@ def data_page(desk: Desk) -> None:
     live(lambda: desk.version, lambda: _model(desk), "gap")
     live(lambda: desk.version, lambda: _data(desk), "gap")
     live(lambda: (desk.version, preview.get("record")), lambda: _records(desk, preview), "gap")
+    live(lambda: desk.version, lambda: projects(desk) if desk.project.empty else None, "gap")
 
 
 def _ready(desk: Desk) -> None:

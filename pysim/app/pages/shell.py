@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 from nicegui import ui
 from nicegui.elements.mixins.text_element import TextElement
+from nicegui.events import KeyEventArguments
 
 from pysim.app.desk import Desk
 from pysim.app.jobs import FAILED
@@ -14,7 +15,9 @@ from pysim.app.pages.candidates import candidates_page
 from pysim.app.pages.common import attempt
 from pysim.app.pages.compare import compare_page
 from pysim.app.pages.data import data_page
+from pysim.app.pages.help import help_of
 from pysim.app.pages.locate import locate_page
+from pysim.app.pages.start import start_page
 from pysim.app.pages.take import take_page
 from pysim.app.parts import box, button, live, text
 from pysim.app.project import LOOKS
@@ -35,25 +38,48 @@ _MARK = (
 
 def shell(desk: Desk) -> None:
     """One tab."""
-    ui.add_head_html('<link rel="stylesheet" href="/static/app.css">')
+    ui.add_head_html(
+        '<link rel="stylesheet" href="/static/app.css"><script>document.documentElement.lang="en"</script>'
+    )
     _look(desk)
+    seen = {"path": "/", "help": ""}
+
+    def turn() -> None:
+        seen["help"] = "" if seen["help"] else "open"
+
+    ui.keyboard(lambda event: turn() if _asks_for_help(event) else None)
     with box("shell"):
         text("a", "To the page", "skip").props('href="#page"')
         with box("top", "header"):
-            with box("brand"):
+            with ui.link(target="/start").classes(replace="brand"):
                 ui.html(_MARK, sanitize=False)
                 text("span", "Workbench")
             live(lambda: desk.version, lambda: _what(desk), "what")
             live(lambda: (desk.version, desk.runner.running is None), lambda: _job(desk))
             live(lambda: desk.project.settings().look, lambda: _look_button(desk))
+            button("? Help", turn, "quiet")
         with box("rail", "nav").props('aria-label="Steps"'):
             _rail(desk)
-        with box("main", "main").props('id="page"'):
-            ui.sub_pages({path: _page(build, desk) for path, _, build in _PAGES})
+        with box("main").props('id="page"'):
+            pages = {path: build for path, _, build in _PAGES} | {"/start": start_page}
+            ui.sub_pages({path: _page(path, build, desk, seen) for path, build in pages.items()})
+        live(lambda: (seen["help"], seen["path"]), lambda: _help(seen))
 
 
-def _page(build: Callable[[Desk], None], desk: Desk) -> Callable[[], None]:
+def _asks_for_help(event: KeyEventArguments) -> bool:
+    return bool(event.action.keydown and not event.action.repeat and event.key == "?")
+
+
+def _help(seen: dict[str, str]) -> None:
+    """At the right side, where it was asked for."""
+    if seen["help"]:
+        with box("help", "aside").props('aria-label="Help"'):
+            help_of(seen["path"])
+
+
+def _page(path: str, build: Callable[[Desk], None], desk: Desk, seen: dict[str, str]) -> Callable[[], None]:
     def show() -> None:
+        seen["path"] = path
         with box("page"):
             build(desk)
 
@@ -106,6 +132,10 @@ def _job(desk: Desk) -> None:
                 time = text("span", clock(job.seconds), "time")
                 button("Stop", desk.runner.stop, "small")
                 live(lambda: (desk.beat, _seconds(desk)), lambda: _tell(desk, stage, time), "unseen")
+        elif desk.doing:
+            with box("job"):
+                box("spin")
+                text("span", desk.doing, "stage")
         elif desk.last is not None and desk.last.state == FAILED:
             text("span", "Failed", "chip bad")
         elif desk.last is not None:

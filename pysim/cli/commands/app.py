@@ -13,7 +13,6 @@ _HIGHEST_PORT = 65535
 def run(given: Given) -> int:
     """Serve until Ctrl-C."""
     from pysim.types import BadInput
-    from pysim.workflow import command_line
 
     try:
         from pysim.app import Limits, serve
@@ -24,7 +23,6 @@ def run(given: Given) -> int:
         raise BadInput(f"--port {given.port}: write a number from 0 (any that is free) to {_HIGHEST_PORT}")
     serve(
         given.project,
-        redo=lambda words: command_line(words, given.project),
         host=given.host,
         port=given.port,
         show=not given.no_browser,

@@ -1,9 +1,10 @@
-"""Work in a process of its own: done, failed, stopped, too slow; and what a server that ended leaves."""
+"""Work of the worker: done, failed, stopped, too slow; and what a server that ended leaves."""
 
 import json
 import os
 import re
 import time
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -15,8 +16,10 @@ from pysim.app.processes import Started
 from pysim.app.project import Project
 from pysim.types import BadInput
 from tests.pysim.app.alive import PARENT, alive, child
+from tests.pysim.app.code_tasks import CODE
 
 _WAIT = 60.0  # s
+Begun = Callable[..., Runner]
 
 
 @pytest.fixture
@@ -25,22 +28,22 @@ def project(tmp_path: Path) -> Project:
 
 
 def work(project: Project, code: str) -> Work:
-    """A piece of work that is a few lines of Python in place of the command line."""
+    """A piece of work that is a few lines of Python."""
     return Work("try", "Try", ("-c", code))
 
 
-@pytest.fixture(autouse=True)
-def python_alone(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Runs words as Python itself would."""
-    import subprocess
-    import sys
+@pytest.fixture
+def begun(project: Project) -> Iterator[Begun]:
+    """Makes runners whose work is code; all are ended afterwards."""
+    made: list[Runner] = []
 
-    def run(words: tuple[str, ...], folder: Path, output: object) -> object:
-        return subprocess.Popen(
-            [sys.executable, *words], cwd=folder, stdout=output, stderr=output, start_new_session=True
-        )
+    def runner(limit: float = 60.0) -> Runner:
+        made.append(Runner(project, limit, CODE))
+        return made[-1]
 
-    monkeypatch.setattr(jobs, "run_pysim", run)
+    yield runner
+    for one in made:
+        one.close()
 
 
 def wait(runner: Runner) -> None:
@@ -54,26 +57,36 @@ def wait(runner: Runner) -> None:
 ANSWERED = "open('results/try/answer.json', 'w').write('{}')"
 
 
-def test_what_has_written_its_answer_is_done_whatever_the_answer(project: Project) -> None:
-    runner = Runner(project)
-    runner.start(work(project, f"{ANSWERED}; raise SystemExit(1)"))
+def test_what_ends_well_is_done(project: Project, begun: Begun) -> None:
+    runner = begun()
+    runner.start(work(project, ANSWERED))
     wait(runner)
     job = read_job(project.results("try"))
     assert job is not None
     assert (job.state, job.fingerprint, job.message) == (DONE, project.fingerprint(), "")
 
 
-def test_what_failed_says_why_in_the_command_s_own_words(project: Project) -> None:
-    runner = Runner(project)
-    runner.start(work(project, "print('pysim compare: no such thing; name another'); raise SystemExit(2)"))
-    wait(runner)
-    job = read_job(project.results("try"))
-    assert job is not None
-    assert (job.state, job.message) == (FAILED, "no such thing; name another")
+@pytest.mark.parametrize(
+    ("code", "words"),
+    [
+        ("raise BadInput('no such thing; name another')", "no such thing; name another"),
+        ("1 / 0", "this is our mistake: ZeroDivisionError: division by zero; please report it"),
+        ("import os; print('Fatal Python error', flush=True); os._exit(3)", "broke down: Fatal Python error"),
+        ("import os; os._exit(3)", "the process ended without a word; look at output.txt in the folder of the result"),
+    ],
+)
+def test_what_failed_says_why_and_the_next_work_is_done(code: str, words: str, project: Project, begun: Begun) -> None:
+    runner = begun()
+    for one in (code, ANSWERED):
+        runner.start(work(project, one))
+        wait(runner)
+        job = read_job(project.results("try"))
+        assert job is not None
+        assert (job.state, words in job.message) == ((FAILED, True) if one == code else (DONE, False))
 
 
-def test_one_at_a_time_and_stopped_with_all_that_it_has_started(project: Project) -> None:
-    runner = Runner(project)
+def test_one_at_a_time_and_stopped_with_all_that_it_has_started(project: Project, begun: Begun) -> None:
+    runner = begun()
     line = json.dumps({"seconds": 1, "stage": "refitting", "text": "a", "step": {"step": "prior"}})
     code = f"open('results/try/events.jsonl', 'w').write({line + chr(10)!r} + '{{\"half')\n"
     runner.start(work(project, code + PARENT))
@@ -92,8 +105,8 @@ def test_one_at_a_time_and_stopped_with_all_that_it_has_started(project: Project
     assert not alive(number)
 
 
-def test_what_takes_too_long_is_ended_and_says_so(project: Project) -> None:
-    runner = Runner(project, limit=0.2)
+def test_what_takes_too_long_is_ended_and_says_so(project: Project, begun: Begun) -> None:
+    runner = begun(0.2)
     runner.start(work(project, "import time; time.sleep(60)"))
     wait(runner)
     job = read_job(project.results("try"))
@@ -101,21 +114,21 @@ def test_what_takes_too_long_is_ended_and_says_so(project: Project) -> None:
     assert (job.state, job.message) == (FAILED, "it took longer than 0.2 s; run it on the command line")
 
 
-def test_a_checkpoint_is_kept_for_the_same_data_and_removed_for_others(project: Project) -> None:
-    runner, checkpoint = Runner(project), project.results("try") / "checkpoint.jsonl"
-    runner.start(work(project, "open('results/try/checkpoint.jsonl', 'w'); raise SystemExit(2)"))
+def test_a_checkpoint_is_kept_for_the_same_data_and_removed_for_others(project: Project, begun: Begun) -> None:
+    runner, checkpoint = begun(), project.results("try") / "checkpoint.jsonl"
+    runner.start(work(project, "open('results/try/checkpoint.jsonl', 'w'); raise BadInput('no')"))
     wait(runner)
-    runner.start(work(project, "raise SystemExit(2)"))
+    runner.start(work(project, "raise BadInput('no')"))
     wait(runner)
     assert checkpoint.exists()
     project.change(model="Other.Model")
-    runner.start(work(project, "raise SystemExit(2)"))
+    runner.start(work(project, "raise BadInput('no')"))
     wait(runner)
     assert not checkpoint.exists()
 
 
-def test_what_a_server_left_running_is_ended_and_counts_as_stopped(project: Project) -> None:
-    Runner(project).start(work(project, PARENT))
+def test_what_a_server_left_running_is_ended_and_counts_as_stopped(project: Project, begun: Begun) -> None:
+    begun().start(work(project, PARENT))
     number = child(project.folder)
     found = read_job(project.results("try"))
     assert found is not None
@@ -129,7 +142,7 @@ def test_what_a_server_left_running_is_ended_and_counts_as_stopped(project: Proj
     assert after is not None
     assert (after.state, after.process, after.lives) == (STOPPED, None, False)
     assert after.seconds > 0
-    runner = Runner(project)
+    runner = begun()
     runner.start(work(project, ANSWERED))  # and can go on
     wait(runner)
     after = read_job(project.results("try"))
@@ -167,28 +180,29 @@ def test_what_still_lives_never_counts_as_stopped(project: Project, monkeypatch:
     assert path.read_bytes() == before
 
 
-def test_no_second_process_writes_into_the_same_result(project: Project) -> None:
-    first = Runner(project)
+def test_no_second_process_writes_into_the_same_result(project: Project, begun: Begun) -> None:
+    first = begun()
     first.start(work(project, PARENT))
     child(project.folder)
     with pytest.raises(BadInput, match=r"try is being written by process \d+; wait for it, or end it first"):
-        Runner(project).start(work(project, ANSWERED))
+        begun().start(work(project, ANSWERED))
     assert first.running is not None
     first.close()
     assert first.running is None
 
 
-def test_a_job_whose_number_cannot_be_written_is_ended(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_job_whose_number_cannot_be_written_does_not_begin(
+    project: Project, begun: Begun, monkeypatch: pytest.MonkeyPatch
+) -> None:
     def full(path: Path, content: str) -> None:
-        child(project.folder)
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr(jobs, "write_file", full)
-    runner = Runner(project)
+    runner = begun()
     with pytest.raises(OSError, match="No space left"):
-        runner.start(work(project, PARENT))
+        runner.start(work(project, "open('begun', 'w')"))
     assert runner.running is None
-    assert not alive(child(project.folder))
+    assert not (project.folder / "begun").exists()
 
 
 def test_words_are_those_of_the_command_line(project: Project) -> None:
@@ -229,11 +243,11 @@ def parse(*lines: tuple[str, ...]) -> None:
         assert argument_parser().parse_args(list(words)).command == words[0]
 
 
-def test_what_goes_on_keeps_its_steps_until_it_has_found_them_again(project: Project) -> None:
+def test_what_goes_on_keeps_its_steps_until_it_has_found_them_again(project: Project, begun: Begun) -> None:
     def line(step: str) -> str:
         return json.dumps({"seconds": 1, "stage": "s", "text": "t", "step": {"step": step}}) + "\n"
 
-    folder, runner = project.results("try"), Runner(project)
+    folder, runner = project.results("try"), begun()
     events = folder / "events.jsonl"
     for told, seen in (
         (["a", "b", "c"], "abc"),

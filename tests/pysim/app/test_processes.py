@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from pysim.app import processes
-from pysim.app.processes import Started, end, last_words, run_pysim
+from pysim.app.processes import Started, end_all
 from tests.pysim.app.alive import PARENT, alive, child
 
 
@@ -17,7 +17,7 @@ from tests.pysim.app.alive import PARENT, alive, child
 def test_what_it_has_started_ends_with_it(hard: bool, tmp_path: Path) -> None:
     with subprocess.Popen([sys.executable, "-c", PARENT], cwd=tmp_path, start_new_session=True) as process:
         number = child(tmp_path)
-        end(process, hard=hard)
+        end_all(process.pid, hard=hard)
         process.wait(30)
     assert not alive(number)
 
@@ -43,7 +43,7 @@ def test_another_process_with_its_number_is_left_alone(tmp_path: Path) -> None:
             assert not earlier.lives
             assert earlier.end(0.2)
         assert process.poll() is None
-        end(process, hard=True)
+        end_all(process.pid, hard=True)
 
 
 def test_what_cannot_be_ended_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -52,13 +52,3 @@ def test_what_cannot_be_ended_is_said(monkeypatch: pytest.MonkeyPatch) -> None:
 
     monkeypatch.setattr(processes.os, "killpg", refused)
     assert not Started.of(os.getpid()).end(0.05)
-
-
-def test_what_a_command_says_is_read_as_it_was_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setenv("PYTHONIOENCODING", "cp1252")  # as where output goes to a file on Windows
-    begin = subprocess.Popen
-    say = "print('pysim compare: Prüfstand/Größe.csv: \\u2265 2 rows \\udc80')"
-    monkeypatch.setattr(processes.subprocess, "Popen", lambda _, **more: begin([sys.executable, "-c", say], **more))
-    with (tmp_path / "output.txt").open("wb") as output:
-        assert run_pysim(["compare"], tmp_path, output).wait(60) == 0
-    assert last_words(tmp_path / "output.txt") == "Prüfstand/Größe.csv: ≥ 2 rows \\udc80"

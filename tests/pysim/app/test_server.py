@@ -100,7 +100,7 @@ def test_a_second_server_touches_nothing_and_tells_where_the_first_is(tmp_path: 
     with held(tmp_path / "p") as tell:
         tell("http://127.0.0.1:8080")
         with pytest.raises(BadInput, match=r"p: a workbench on it runs at http://127.0.0.1:8080 \(process \d+\); use"):
-            serve(tmp_path / "p", redo=" ".join, show=False, limits=Limits())
+            serve(tmp_path / "p", show=False, limits=Limits())
     assert running.read_bytes() == before
     assert coming.exists()
 
@@ -133,7 +133,7 @@ def test_a_killed_server_makes_room_for_the_next_and_ipv6_is_answered(tmp_path: 
         assert status(f"{base(address)}/", Cookie=cookie) == 200
         assert status(f"{base(address)}/_nicegui_ws/socket.io/?EIO=4&transport=polling", Cookie=cookie) == 200
         with pytest.raises(BadInput, match=re.escape(f"runs at {base(address)} (process ")) as refused:
-            serve(tmp_path / "p", redo=" ".join, show=False, limits=Limits())
+            serve(tmp_path / "p", show=False, limits=Limits())
         os.kill(int(str(refused.value).partition("(process ")[2].partition(")")[0]), signal.SIGKILL)
         _until(lambda: _free(tmp_path / "p"))
 

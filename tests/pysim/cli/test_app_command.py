@@ -1,12 +1,10 @@
 """`pysim app`: what it refuses before it serves; the page itself is tried in tests/pysim/app."""
 
-import shlex
 import sys
 from pathlib import Path
 
 import pytest
 
-import pysim.cli
 from pysim.cli import main
 
 
@@ -34,15 +32,3 @@ def test_a_folder_of_something_else_is_refused(tmp_path: Path, capsys: pytest.Ca
     (tmp_path / "letter.txt").write_text("dear")
     assert main(["app", str(tmp_path), "--no-browser"]) == 2
     assert "holds files but no project.toml" in capsys.readouterr().err
-
-
-def test_the_page_shows_the_lines_of_this_environment_for_the_project_s_folder(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    pytest.importorskip("nicegui")
-    root, served = Path(pysim.cli.__file__).parents[2], {}
-    monkeypatch.setattr("pysim.app.serve", lambda folder, **options: served.update(options))
-    monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
-    monkeypatch.chdir(root)
-    assert main(["app", str(tmp_path / "p")]) == 0
-    assert shlex.split(served["redo"](["locate", "data"]))[1:] == [str(root / "run.py"), "pysim", "locate", "data"]

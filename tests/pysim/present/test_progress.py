@@ -1,6 +1,7 @@
 """Nothing that lasts stands silent, and nothing is said of what is quick."""
 
 import io
+import json
 import re
 import shutil
 import sys
@@ -10,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from pysim.present import progress
-from pysim.present.progress import ProgressBar, Unfolding, Working, announce_compilation, block, showing
+from pysim.present.progress import EventFile, ProgressBar, Unfolding, Working, announce_compilation, block, showing
 from pysim.simulate import build_kernel, kernel_is_built
 from pysim.simulate.kernel import build
 from pysim.types import ProgressEvent
@@ -151,3 +152,14 @@ def test_a_verb_shows_its_search_where_it_is_asked_to(capsys: pytest.CaptureFixt
         with showing(progress_wanted, "fitting") as say:
             say(ProgressEvent("refitting", "prior: 8.1"))
         assert capsys.readouterr().err == ""
+
+
+def test_events_in_a_file_can_be_followed_by_a_program(tmp_path: Path) -> None:
+    tell = EventFile(tmp_path / "events.jsonl")
+    tell(ProgressEvent("refitting the model"))
+    tell(ProgressEvent("refitting the model", "prior: 8.1", step("prior", 8.1, None, 0.9)))
+    first, second = (json.loads(line) for line in (tmp_path / "events.jsonl").read_text().splitlines())
+    assert (first["stage"], first["text"], first["step"]) == ("refitting the model", "", None)
+    assert second["step"]["step"] == "prior"
+    assert (second["step"]["fit"], second["step"]["validate"]) == (8.1, None)
+    assert second["seconds"] >= first["seconds"] >= 0

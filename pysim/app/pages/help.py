@@ -1,0 +1,49 @@
+"""What each page is for, and the keys that it takes."""
+
+from __future__ import annotations
+
+from pysim.app.parts import box, text
+
+_ABOUT = {
+    "/start": (
+        "Click an example. The page makes its logs and its model, and shows where the two differ.",
+        "A project is a folder. Everything is kept in it, so you can close the page at any time.",
+    ),
+    "/": (
+        "Drop a folder with a dataset.toml, a .zip, or single logs. Logs without a dataset.toml are described here.",
+        "Name a Modelica class, or drop an .fmu or a library.",
+        "Logs that are held out are never fitted. They show how well the model predicts.",
+    ),
+    "/compare": (
+        "Every log beside the model. Residuals are in standard deviations of the noise: 1 means only noise is left.",
+        "Click a cell of the map to open its log. Drag in a figure to zoom, double click to see all.",
+    ),
+    "/locate": (
+        "For each place in the model we estimate the force, flow or signal that would close the gap.",
+        "Pick a place in the drawing to see the law that it would need.",
+    ),
+    "/candidates": (
+        "Effects of the catalogue that fit the model, ranked by how much of the misfit each explains.",
+        "Try adds an effect and refits the model.",
+    ),
+    "/add": ("The error falls step by step while effects are added. Parameters are shown before and after.",),
+    "/take": ("Download the extended class, its FMU and the fitted values. The report is drawn when you open it.",),
+}
+_KEYS = (
+    ("Tab, Enter", "reach and press everything"),
+    ("?", "show or hide this help"),
+    ("arrows, + −, 0", "in a figure over time: move, zoom, show all"),
+    ("arrows", "in the drawing: go from place to place"),
+)
+
+
+def help_of(path: str) -> None:
+    """Of the page at a path."""
+    text("h2", "Help")
+    for sentence in _ABOUT.get(path, ()):
+        text("p", sentence)
+    text("h3", "Keys")
+    with box("keys", "dl"):
+        for keys, what in _KEYS:
+            text("dt", keys, "mono")
+            text("dd", what)

@@ -1,0 +1,149 @@
+"""What the worker does for the page: functions of `pysim.workflow` and `pysim.diagnosis`, on what it keeps."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable, Mapping
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+from pysim.app.jobs import ANSWER, EVENTS, OUTPUT, RECORDS, REPORT, Work, read_job
+from pysim.app.project import Project
+from pysim.app.worker import said_in
+from pysim.diagnosis import Session, Settings, add, compare, diagnose, learn, rank
+from pysim.io import write_file, write_stages
+from pysim.nouns.example import EXAMPLES, example_folder
+from pysim.present import data, write_report
+from pysim.present.diagnosis import Diagnosed, files
+from pysim.present.diagnosis.words import added_sentence, comparison_sentence, learned_sentence, ranking_sentence
+from pysim.present.model import Inside
+from pysim.present.progress import EventFile
+from pysim.present.report import PAGE, with_places
+from pysim.types import BadInput, Diagnosis, ProgressEvent
+from pysim.workflow import (
+    SessionParts,
+    command_line,
+    data_of,
+    effects_of,
+    inside,
+    model_of,
+    reference_of,
+    session_of,
+    session_parts,
+    whole_answer,
+    write_extended,
+)
+
+CHECKPOINT, MARKER = "checkpoint.jsonl", ".pysim-answer"  # in the folder of a report, as the command line has them
+_WORDS: Mapping[str, tuple[str, Callable[[Diagnosis], str]]] = {  # work -> what is asked, and what answers it
+    "compare": ("How far is the model from its measurements?", comparison_sentence),
+    "locate": ("Where is what missing?", learned_sentence),
+    "rank": ("What would each effect explain?", ranking_sentence),
+    "add": ("What do the effects mend?", added_sentence),
+}
+
+
+class Tasks:
+    """Each method answers a question of the page; what was opened and found is kept while the project stays as it is.
+
+    Args:
+        folder: of the project.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._project = Project(folder)
+        self._of = ""  # the fingerprint of what is kept
+        self._parts: SessionParts | None = None
+        self._found: dict[str, Diagnosed] = {}
+
+    def model(self) -> dict[str, Any]:
+        """What the project's model holds, as `pysim model --json` says it."""
+        settings = self._project.settings()
+        libraries = [Path(one) for one in settings.libraries]
+        model = model_of(settings.model, libraries)
+        known = inside(model, libraries)
+        return dict(data(Inside(model, known.class_name, known.slots, known.taken, tuple(libraries))))
+
+    def example(self, name: str) -> None:
+        """Take the logs, the library and the model of an example into the project."""
+        own, coming = EXAMPLES[name], self._project.uploads / "example"
+        shutil.rmtree(coming, ignore_errors=True)
+        shutil.copytree(example_folder(name), coming / "data")
+        self._project.replace_data(coming / "data")
+        for library in own.libraries:
+            shutil.copy(library, coming)
+        self._project.replace_models([coming / library.name for library in own.libraries])
+        names = tuple(f"model/{library.name}" for library in own.libraries)
+        self._project.change(model=own.model, libraries=names, added=())
+
+    def step(self, work: Work) -> None:
+        """Do a piece of work, with its numbers in the folder of its result."""
+        folder = self._project.results(work.name)
+        with said_in(folder / OUTPUT):
+            tell = EventFile(folder / EVENTS)
+            result = self._result(work, tell)
+            tell(ProgressEvent("writing files"))
+            for name, content in files(result).items():
+                write_file(folder / REPORT / name, content)
+            beside = [*result.files.values(), *files(result)]
+            whole = with_places(result, {"report": folder / REPORT / PAGE}, folder)
+            write_stages(folder / RECORDS, result.found.history)
+            write_file(folder / ANSWER, json.dumps(data(whole), indent=1, allow_nan=False))
+            write_file(folder / REPORT / MARKER, "".join(f"{name}\n" for name in beside))
+
+    def report(self, name: str) -> None:
+        """Draw the report of a result; one that is not kept goes on from its checkpoint, to its end."""
+        folder = self._project.results(name)
+        job = read_job(folder)
+        if job is None:
+            raise BadInput(f"{name} has no result; run it again")
+        with said_in(folder / OUTPUT):
+            kept = self._of == self._project.fingerprint() and name in self._found
+            result = self._found[name] if kept else self._result(job.work, lambda event: None)
+            written = write_report(folder / REPORT, result, redo=command_line(job.work.words))
+            more = {path.with_suffix(suffix).name for path in written.values() for suffix in (path.suffix, ".svg")}
+            names = [one for one in sorted({*result.files.values(), *more}) if (folder / REPORT / one).is_file()]
+            write_file(folder / REPORT / MARKER, "".join(f"{one}\n" for one in names))
+
+    def _opened(self) -> SessionParts:
+        """The project's model and data, opened once while they stay as they are."""
+        now = self._project.fingerprint()
+        if self._parts is None or self._of != now:
+            settings = self._project.settings()
+            libraries = [Path(one) for one in settings.libraries]
+            measured = data_of(Path("data"))
+            self._parts = session_parts(
+                model_of(settings.model, libraries), measured, libraries=libraries, free=settings.free,
+                bounds={}, values={}, reference_hz=reference_of(measured.responses()),
+            )  # fmt: skip
+            self._of, self._found = now, {}
+        return self._parts
+
+    def _result(self, work: Work, tell: Callable[[ProgressEvent], None]) -> Diagnosed:
+        """What a piece of work finds, kept."""
+        parts = self._opened()
+        report = self._project.results(work.name) / REPORT
+        report.mkdir(exist_ok=True)
+        found = _steps(work, parts)(progress=tell, checkpoint=report / CHECKPOINT)
+        conditions = {
+            "data set": f"{parts.dataset.name}, {len(parts.dataset.records)} records, data",
+            "command": command_line(work.words),
+        }
+        found = whole_answer(found, parts, conditions)
+        asked, answer = _WORDS.get(work.kind, ("Which effect is missing?", lambda found: ""))
+        title = f"{parts.model_name} against {parts.dataset.name}"
+        beside = {name: path.name for name, path in write_extended(found, parts, report).items()}
+        self._found[work.name] = Diagnosed(found, parts.dataset, title, asked, answer(found), files=beside)
+        return self._found[work.name]
+
+
+def _steps(work: Work, parts: SessionParts) -> Callable[..., Diagnosis]:
+    """The function that does a piece of work."""
+    settings = Settings(max_effects=0) if work.kind == "rank" else None
+    session: Session = session_of(parts, settings)
+    if work.kind == "add":
+        return partial(add, session, effects_of(work.effects, parts))
+    steps: dict[str, Callable[..., Diagnosis]] = {"compare": compare, "locate": learn, "rank": rank}
+    return partial(steps.get(work.kind, diagnose), session)

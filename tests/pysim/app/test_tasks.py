@@ -1,0 +1,81 @@
+"""What the worker does is what the command line does, in a folder that both can go on with."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from pysim.app import tasks
+from pysim.app.jobs import ANSWER, Job, Work, _write_job, works
+from pysim.app.project import Project, Settings
+from pysim.app.tasks import CHECKPOINT, MARKER, Tasks
+from pysim.cli import main, outputs
+from pysim.io import write_dataset
+from tests.toy import TEXT, measured
+
+
+@pytest.fixture
+def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
+    """A mass that rubs, whose model does not."""
+    one = Project.at(tmp_path / "project")
+    write_dataset(one.data, measured(1, "toy.friction", F_c=0.4))
+    one.models.mkdir()
+    (one.models / "Toy.mo").write_text(TEXT)
+    one.save(Settings(model="Toy.Mass", libraries=("model/Toy.mo",)))
+    monkeypatch.chdir(one.folder)
+    return one
+
+
+def done(project: Project, name: str, own: Tasks) -> Path:
+    """The folder of a result."""
+    work, folder = works(project)[name], project.results(name)
+    folder.mkdir(parents=True)
+    _write_job(Job(work, "done", 0.0, 1.0, project.fingerprint()), folder)
+    own.step(work)
+    return folder
+
+
+def answer(folder: Path) -> dict[str, object]:
+    """But for what differs from run to run, and in which order its words were typed."""
+    found = json.loads((folder / ANSWER).read_text())
+    found["conditions"].pop("command")
+    return {k: v for k, v in found.items() if k not in ("seconds", "files")}
+
+
+@pytest.mark.slow
+def test_the_answer_is_that_of_the_command_line_which_takes_the_folder_over(project: Project) -> None:
+    assert (MARKER, CHECKPOINT) == (outputs.MARKER, outputs.CHECKPOINT)
+    folder = done(project, "compare", Tasks(project.folder))
+    assert (folder / "report/parameters.toml").is_file()
+    assert not list(folder.glob("**/*.png"))  # nobody has asked for a picture
+    before = answer(folder)
+    assert main(list(works(project)["compare"].words)) in (0, 1)
+    assert answer(folder) == before
+
+
+@pytest.mark.slow
+def test_a_report_is_drawn_when_it_is_asked_for_and_after_a_restart_too(
+    project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    own = Tasks(project.folder)
+    folder = done(project, "compare", own)
+    named = json.loads((folder / ANSWER).read_text())["files"]["report"]
+    own.report("compare")
+    assert "<html" in (folder / named).read_text()
+    first = {path.name: path.read_bytes() for path in (folder / "report").glob("*.png")}
+    steps: list[Work] = []
+    told = tasks._steps
+    monkeypatch.setattr(tasks, "_steps", lambda work, parts: steps.append(work) or told(work, parts))
+    own.report("compare")  # it is kept
+    assert steps == []
+    Tasks(project.folder).report("compare")
+    assert [one.name for one in steps] == ["compare"]
+    assert {path.name: path.read_bytes() for path in (folder / "report").glob("*.png")} == first != {}
+
+
+def test_models_and_data_are_opened_once_while_they_stay_as_they_are(project: Project) -> None:
+    own = Tasks(project.folder)
+    assert own._opened() is own._opened()
+    before = own._opened()
+    (project.models / "Toy.mo").write_text(f"{TEXT}\n")
+    assert own._opened() is not before
