@@ -9,6 +9,8 @@ import re
 import sys
 from pathlib import Path
 
+from sphinx.application import Sphinx
+
 HERE = Path(__file__).parent
 ROOT = HERE.parent
 sys.path[:0] = [str(ROOT), str(HERE)]
@@ -58,7 +60,7 @@ _OUTSIDE = re.compile(
 )
 
 
-def _page(app: object, name: str, source: list[str]) -> None:
+def _page(app: Sphinx, name: str, source: list[str]) -> None:
     """Put generated text where a page asks for it; a link out of the site becomes the path in the repository."""
     import generate
 
@@ -66,6 +68,28 @@ def _page(app: object, name: str, source: list[str]) -> None:
     source[0] = _OUTSIDE.sub(lambda match: f"{match[1]} (`{match[2].replace('../', '')}`)", text)
 
 
-def setup(app: object) -> None:
+def _thumbnails(app: Sphinx, error: Exception | None) -> None:
+    """Show the first picture of each notebook in the gallery."""
+    gallery = Path(app.outdir) / "gallery"
+    if error or not (gallery / "index.html").exists():
+        return
+
+    def picture(name: str) -> str:
+        found = re.search(
+            r'<img[^>]*src="(\.\./_images/[^"]+)"', (gallery / f"{name}.html").read_text(encoding="utf-8")
+        )
+        return f'<a href="{name}.html"><img alt="{name}" src="{found[1]}"></a>' if found else ""
+
+    page = (gallery / "index.html").read_text(encoding="utf-8")
+    page = re.sub(
+        r'(<div class="thumbnails" data-pages="([^"]+)">)(?:.|\n)*?</div>',
+        lambda match: match[1] + "".join(map(picture, match[2].split())) + "</div>",
+        page,
+    )
+    (gallery / "index.html").write_text(page, encoding="utf-8")
+
+
+def setup(app: Sphinx) -> None:
     """Called by Sphinx."""
-    app.connect("source-read", _page)  # type: ignore[attr-defined]
+    app.connect("source-read", _page)
+    app.connect("build-finished", _thumbnails)

@@ -65,7 +65,7 @@ def effects(here: Path) -> str:
     for model in ("Pump.FreeGreyBox", "LoadCircuit.OpenTestBench"):
         name = f"HydraulicTestBench.{model}"
         cards = [_card(effect, name, here) for effect in fitting(found, name, [STANDARD_LIBRARY])]
-        parts.append(f"## Effects of {name}\n\n:::::{{container}} cards\n" + "\n".join(cards) + ":::::\n")
+        parts.append(f"## Effects of {model}\n\n:::::{{container}} cards\n" + "\n".join(cards) + ":::::\n")
     return "\n".join(parts)
 
 
@@ -80,7 +80,7 @@ def _card(effect: object, model: str, here: Path) -> str:
         for p in effect.parameters
     ]
     numbers = table(("parameter", "range", "usual", "unit"), rows)
-    about = f"{effect.description}. Slot `{effect.slot}`."
+    about = f"{effect.description.replace(f' ({effect.name})', '')}. Slot `{effect.slot}`."
     head = f":::{{container}} title\n{effect.name}\n:::"
     return f"::::{{container}} card\n{head}\n{about}\n\n{picture}{law}\n{numbers}::::\n"
 

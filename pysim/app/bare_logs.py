@@ -87,7 +87,7 @@ def _time_unit(columns: Sequence[Mapping[str, Any]]) -> str:
     """Of the clock, s where nothing was chosen."""
     unit = next((c["unit"] for c in columns if c["role"] == "time" and c["unit"]), "s")
     if unit not in SECONDS:
-        raise BadInput(f"time is not told in {unit}; choose {', '.join(SECONDS)}")
+        raise BadInput(f"time is not stated in {unit}; choose {', '.join(SECONDS)}")
     return str(unit)
 
 

@@ -50,7 +50,7 @@ def end(process: subprocess.Popen[bytes], *, hard: bool) -> None:
 
 @dataclass(frozen=True)
 class Started:
-    """A process of `run_pysim`, told from a later one that has got its number.
+    """A process of `run_pysim`, distinguished from a later one that has got its number.
 
     Args:
         pid: its number.
