@@ -25,7 +25,7 @@ package Tank
     annotation(__HydraulicTestBench(effect="tank.radiation", slot="extra"));
   end Radiation;
   model Oil "Oil that a pump heats"
-    parameter Real C(unit="J/K", min=1e4, max=1e6, nominal=1e5) = 1e5 "Heat capacity";
+    parameter Real C(unit="J/K", min=1e3, max=1e5, nominal=1e4) = 1e4 "Heat capacity";
     parameter Real G(unit="W/K", min=1, max=200, nominal=20) = 20 "Conductance of the wall";
     input Real P(unit="W", start=0) "Heat of the pump";
     input Real T_air(unit="K", start=293.15);
