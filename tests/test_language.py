@@ -13,6 +13,7 @@ import pytest
 
 ROOT = Path(__file__).parents[1]
 PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("**/*.md"))]
+CASES = [*sorted((ROOT / "validation").glob("**/README.md")), ROOT / "tests" / "known_answers" / "README.md"]
 PACKAGES = ("pysim", "fmu_build")
 PRIVATE = (
     r"told", r"bent", r"dents?", r"prices?", r"footprints?", r"blam(?:e|es|ed|ing)", r"ledgers?", r"staircases?",
@@ -75,7 +76,7 @@ def page_name(page: Path) -> str:
     return page.relative_to(ROOT).as_posix()
 
 
-@pytest.mark.parametrize("page", PAGES, ids=page_name)
+@pytest.mark.parametrize("page", [*PAGES, *CASES], ids=page_name)
 def test_pages_have_no_private_words(page: Path) -> None:
     assert [one for one in sentences(page.read_text(encoding="utf-8")) if private(one)] == []
 

@@ -143,8 +143,8 @@ COMMAND = Command(
             "draft a dataset.toml into a folder of logs that has none",
             _describe,
             options=(
-                argument("FOLDER", "of logs; nothing else in it is changed", convert=Path),
-                *_signals("what drives the plant, by its heading, or in the order of the columns (the second)"),
+                argument("FOLDER", "folder of logs; nothing else in it is changed", convert=Path),
+                *_signals("inputs, by their headings or in the order of the columns (the second)"),
             ),
         ),
         Command(
@@ -153,16 +153,16 @@ COMMAND = Command(
             _prepare,
             options=(
                 argument("SOURCE", "a data set, or a file, folder or pattern of logs", role=Role.READ),
-                text("--step", "STEP:...", "flip:x, trim:start=0.5 and others, in order; repeat", repeated=True),
+                text("--step", "STEP:...", "preparation step such as flip:x or trim:start=0.5; repeat", repeated=True),
                 text(
                     "--input",
                     "NAME[:UNIT],...",
-                    "what drives the plant, by its heading; commas or repeat",
+                    "inputs, by their headings; commas or repeat",
                     repeated=True,
                 ),
-                text("--response", "NAME[:UNIT],...", "what answers; commas or repeat", repeated=True),
-                text("--time", "HEADING", "the clock, where its values do not tell it"),
-                file("--into", "FOLDER", "a new folder", role=Role.VALUE, required=True),
+                text("--response", "NAME[:UNIT],...", "outputs, by their headings; commas or repeat", repeated=True),
+                text("--time", "HEADING", "heading of the time column, if several could be it"),
+                file("--into", "FOLDER", "new folder for the data set", role=Role.VALUE, required=True),
             ),
         ),
     ),
