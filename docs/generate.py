@@ -115,7 +115,7 @@ def settings(here: Path) -> str:
             if inspect.isclass(kind) and kind.__module__ == module.__name__:
                 rows = [(code(s.name), s.value, s.unit, s.meaning, s.source) for s in settings_of(kind())]
                 heads = ("setting", "value", "unit", "meaning", "source")
-                parts.append(f"## {module.__name__}.{name}\n\n{first_sentence(kind.__doc__)}.\n\n{table(heads, rows)}")
+                parts.append(f"## {name}\n\n{first_sentence(kind.__doc__)} (`{module.__name__}`).\n\n{table(heads, rows)}")
     return "\n".join(parts)
 
 
