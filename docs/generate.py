@@ -115,7 +115,8 @@ def settings(here: Path) -> str:
             if inspect.isclass(kind) and kind.__module__ == module.__name__:
                 rows = [(code(s.name), s.value, s.unit, s.meaning, s.source) for s in settings_of(kind())]
                 heads = ("setting", "value", "unit", "meaning", "source")
-                parts.append(f"## {name}\n\n{first_sentence(kind.__doc__)} (`{module.__name__}`).\n\n{table(heads, rows)}")
+                about = f"{first_sentence(kind.__doc__)} (`{module.__name__}`)."
+                parts.append(f"## {name}\n\n{about}\n\n{table(heads, rows)}")
     return "\n".join(parts)
 
 
