@@ -35,12 +35,14 @@ CHECKS = {  # run beside this file; the others where they were called
     "test": ["-m", "pytest", "-n", "auto", "--dist", "loadfile"],
     "lint": ["-m", "ruff", "check"],
     "types": ["-m", "mypy"],
+    "docs": ["-m", "sphinx", "-W", "--keep-going", "docs", "build/docs"],
 }
 GROUPS = {  # optional dependencies in pyproject.toml that a command needs
     "test": {"test"},
     "validate": {"test"},
     "lint": {"lint"},
     "types": {"test", "lint"},
+    "docs": {"docs", "data"},
 }
 
 

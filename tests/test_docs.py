@@ -1,10 +1,11 @@
 """What the pages in docs/ show works as it stands: their Python runs, their command lines parse, their links lead
-somewhere. A block that begins with ```sh run is executed, one with file=NAME behind its language is written there."""
+somewhere. A block that begins with ```sh run is executed, one with file=NAME behind its language is written there. A
+comment `files: PATTERN` names what lies beside the page and is copied. A block ```python script is run where its files
+are, by tests/pysim/nouns/test_scripts.py. A block ```python given has a model, logs and a fit."""
 
-import ast
-import builtins
 import re
 import shlex
+import shutil
 import sys
 import traceback
 from collections.abc import Iterator
@@ -14,10 +15,13 @@ from typing import Any
 
 import pytest
 
+import pysim
 from pysim.cli.main import argument_parser
+from tests.pysim.nouns.script_files import with_drag
 
 ROOT = Path(__file__).parents[1]
-PAGES = sorted((ROOT / "docs").glob("*.md"))
+PAGES = sorted((ROOT / "docs").glob("**/*.md"))
+CELL = "{code-cell} python"
 RUNNER = ("python3", "run.py")
 
 
@@ -34,7 +38,11 @@ def run_page(page: Path) -> None:
         AssertionError: something failed; names the page and the line.
     """
     namespace: dict[str, object] = {"__name__": "__main__"}
-    for words, line, source in blocks(page.read_text(encoding="utf-8")):
+    text = page.read_text(encoding="utf-8")
+    for pattern in re.findall(r"<!-- files: (\S+) -->", text):
+        for beside in page.parent.glob(pattern):
+            (shutil.copytree if beside.is_dir() else shutil.copy)(beside, beside.name)
+    for words, line, source in blocks(text):
         file = re.search(r"\bfile=(\S+)", words)
         if file:
             Path(file[1]).parent.mkdir(parents=True, exist_ok=True)
@@ -43,7 +51,7 @@ def run_page(page: Path) -> None:
             for at, command in commands(source, line):
                 code = execute(command)
                 assert code == 0, f"{page.name}, line {at}: {shlex.join(command)} ends with {code}"
-        if words != "python":
+        if words not in ("python", CELL):
             continue
         padded = "\n" * (line - 1) + source  # so that tracebacks count the page's lines
         try:
@@ -120,16 +128,15 @@ def dead_links(page: Path) -> list[str]:
 
 
 def page_name(page: Path) -> str:
-    return page.name
+    return page.relative_to(ROOT).as_posix()
 
 
 def pages_to_run() -> list[Any]:
-    """Those that fit and diagnose take their time, and run where slow tests are asked for."""
-    long = ("missing_effect.md", "from_logs_to_fmu.md", "own_model.md")
-    own = ("python.md",)  # each of its scripts is run in a folder with its files, by tests/pysim/nouns/test_scripts.py
-    return [
-        pytest.param(page, marks=[pytest.mark.slow] * (page.name in long)) for page in PAGES if page.name not in own
-    ]
+    """Those that fit and diagnose take their time, and run where slow tests are asked for; the site's build executes
+    the notebooks of the gallery."""
+    long = ("missing_effect.md", "own_model.md")
+    pages = [page for page in PAGES if page.parent.name != "gallery"]
+    return [pytest.param(page, marks=[pytest.mark.slow] * (page.name in long)) for page in pages]
 
 
 @pytest.mark.parametrize("page", pages_to_run(), ids=page_name)
@@ -163,39 +170,26 @@ def test_every_page_is_reached_from_the_readme() -> None:
     assert [page.name for page in PAGES if page not in found] == []
 
 
-ONLY_VIRTUAL = "# only on a virtual bench"
-
-
-def own_steps(text: str) -> str:
-    """The Python of the page from its second step on, without what only a virtual bench has."""
-    found = []
-    for words, _, source in blocks(text[text.index("## 2.") :]):
-        if words == "python" and not source.startswith(ONLY_VIRTUAL):
-            found += [line for line in source.splitlines() if ONLY_VIRTUAL not in line]
-    return "\n".join(found)
-
-
-def unknown_names(source: str) -> set[str]:
-    """Names that a module uses and nowhere gives a meaning."""
-    tree = ast.parse(source)
-    names = [node for node in ast.walk(tree) if isinstance(node, ast.Name)]
-    given = {name.id for name in names if not isinstance(name.ctx, ast.Load)} | set(dir(builtins))
-    imported = (node for node in ast.walk(tree) if isinstance(node, ast.Import | ast.ImportFrom))
-    given |= {alias.asname or alias.name for node in imported for alias in node.names}
-    return {name.id for name in names} - given
-
-
-def test_the_way_from_logs_can_be_gone_with_logs_of_ones_own() -> None:
-    """From the second step on nothing is used that the first made, and what to put in is marked."""
-    text = (ROOT / "docs" / "from_logs_to_fmu.md").read_text(encoding="utf-8")
-    source = own_steps(text)
-    assert unknown_names(source) == set()
-    assert source.count("# yours: ") == 4
-    assert unknown_names(source.replace("FREE = [", "MINE = [")) == {"FREE"}
+@pytest.mark.slow
+def test_what_is_shown_of_a_fit_runs(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every block of ```python given, with an axis that lacks a drag."""
+    monkeypatch.chdir(tmp_path)
+    with_drag(tmp_path)
+    data = pysim.load("logs/*.csv", inputs="F", outputs="x").hold_out("run3")
+    model = pysim.model("MyLib.Axis", library="MyLib")
+    fitted = pysim.fit(model, data)
+    ran = 0
+    for page in PAGES:
+        for words, line, source in blocks(page.read_text(encoding="utf-8")):
+            if words == "python given":
+                names = {"pysim": pysim, "model": model, "data": data, "fitted": fitted}
+                exec(compile("\n" * (line - 1) + source, str(page), "exec"), names)
+                ran += 1
+    assert ran >= 4
 
 
 def test_the_limits_on_the_page_are_those_that_judge() -> None:
-    page = (ROOT / "docs" / "diagnosis.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "explanation" / "comparison.md").read_text(encoding="utf-8")
     section = page[page.index("## The limits") :]
     rows = [[cell.strip() for cell in row.strip("|").split("|")] for row in re.findall(r"^\|.*\|$", section, re.M)[2:5]]
     accuracy = import_module("pysim.identify.accuracy")
@@ -207,11 +201,11 @@ def test_the_limits_on_the_page_are_those_that_judge() -> None:
 @pytest.mark.parametrize(
     ("page", "words"),
     [
-        ("cosim.md", ("An FMU is native code", "Open what you trust", "--isolate")),
-        ("validate.md", ("An FMU is native code",)),
-        ("app.md", ("--host",)),
+        ("explanation/cosimulation.md", ("An FMU is native code", "Open what you trust", "--isolate")),
+        ("reference/fmu_checks.md", ("An FMU is native code",)),
+        ("tutorials/workbench.md", ("--host",)),
         (
-            "simulationx.md",
+            "how-to/other_programs.md",
             ("output intervals of at most 1 ms", "500 steps per output interval", "tell FMPy's authors"),
         ),
     ],

@@ -11,11 +11,9 @@ from validation.findings import Finding
 from validation.registry import CASES, GROUPS
 from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, keep_results, newest, verdict_of
 
-BEGIN, END = "<!-- validation: begin, written by pysim validate --record -->", "<!-- validation: end -->"
-
 
 def record(root: Path, results: Iterable[CaseResult]) -> Path:
-    """Keep results in a checkout, and write its summary and its README anew.
+    """Keep results in a checkout, and write its summary anew.
 
     Returns:
         the file of all that are kept.
@@ -23,13 +21,11 @@ def record(root: Path, results: Iterable[CaseResult]) -> Path:
     kept_in = root / "validation" / "recorded.jsonl"
     kept = keep_results(kept_in, results)
     write_file(root / "validation" / "RESULTS.md", full_summary(kept))
-    readme = root / "README.md"
-    write_file(readme, between_markers(readme.read_text(encoding="utf-8"), short_summary(kept)))
     return kept_in
 
 
 def short_summary(results: Iterable[CaseResult]) -> str:
-    """A row per group, and which cases fail: what the README includes."""
+    """A row per group, and which cases fail."""
     last = newest(results)
     rows = []
     for group, title in GROUPS.items():
@@ -38,7 +34,7 @@ def short_summary(results: Iterable[CaseResult]) -> str:
         counts = [str(sum(result.count(verdict) for result in done)) for verdict in (HOLDS, FAILS, SKIPPED)]
         rows.append([title, f"{len(done)} of {len(names)}", *counts])
     head = ["", "cases recorded", "claims that hold", "fail", "skipped"]
-    words = (_failing(last), "[Every case and every claim that fails](validation/RESULTS.md).", _commits(last))
+    words = (_failing(last), _commits(last))
     return "\n".join([*_table(head, rows), "", *words, ""])
 
 
@@ -49,9 +45,11 @@ def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
         kept: of all that is kept, where cases without a result are named too, with links from this folder; else of
             one run.
     """
+    results = list(results)
     last = newest(results)
     written = "by `pysim validate --record`: each case's last run" if kept else "by `pysim validate`: one run"
     lines = ["# What holds, and what does not", "", f"Written {written}."]
+    lines += ["", short_summary(results).strip()] if kept else []
     head = ["case", "what", "holds", "fails", "skipped", "CPU s", "date", "commit"]
     for group, title in GROUPS.items():
         names = [name for name, case in CASES.items() if case.group == group and (kept or name in last)]
@@ -82,7 +80,7 @@ def _commits(last: Mapping[str, CaseResult]) -> str:
 def _failing(last: Mapping[str, CaseResult]) -> str:
     """How many claims fail, by case."""
     named = [
-        f"[{name}](validation/{CASES[name].readme}) ({result.count(FAILS)}{', stopped' if result.error else ''})"
+        f"[{name}]({CASES[name].readme}) ({result.count(FAILS)}{', stopped' if result.error else ''})"
         for name, result in last.items()
         if result.verdict == FAILS
     ]
@@ -101,16 +99,3 @@ def _sentence(finding: Finding) -> str:
 def _table(head: list[str], rows: list[list[str]]) -> list[str]:
     text = [" | ".join(cell.replace("|", "\\|") for cell in row) for row in [head, ["---"] * len(head), *rows]]
     return [f"| {row} |" for row in text]
-
-
-def between_markers(text: str, block: str) -> str:
-    """`text` with what stands between the markers replaced.
-
-    Raises:
-        ValueError: the markers are not there once each, in order.
-    """
-    before, begin, rest = text.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not begin or not end or BEGIN in rest or END in after:
-        raise ValueError(f"needs the lines {BEGIN} and {END} once each, in this order")
-    return f"{before}{BEGIN}\n{block.strip()}\n{END}{after}"

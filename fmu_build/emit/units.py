@@ -180,7 +180,7 @@ def conversion(unit: Unit, display: Unit) -> tuple[float, float] | None:
     Hz against rad/s is a matter of angles, 1/s against rev/min one of counts; 1/s against rad/s may be either.
 
     Returns:
-        None where they measure different quantities, or it cannot be told whether angles or cycles are counted.
+        None where they measure different quantities, or it is not known whether angles or cycles are counted.
     """
     for seen in (Unit.with_angles, Unit.with_counts):
         one, other = seen(unit), seen(display)

@@ -87,14 +87,14 @@ def _time_unit(columns: Sequence[Mapping[str, Any]]) -> str:
     """Of the clock, s where nothing was chosen."""
     unit = next((c["unit"] for c in columns if c["role"] == "time" and c["unit"]), "s")
     if unit not in SECONDS:
-        raise BadInput(f"time is not told in {unit}; choose {', '.join(SECONDS)}")
+        raise BadInput(f"time is not stated in {unit}; choose {', '.join(SECONDS)}")
     return str(unit)
 
 
 def _others(folder: Path, logs: Sequence[Path], kind: str) -> list[dict[str, Any]]:
     """The last of several is held out."""
     if kind == CHIRP.name:
-        raise BadInput("chirps need their offset and amplitude; write a dataset.toml, as docs/data.md shows")
+        raise BadInput("chirps need offset and amplitude; write a dataset.toml (docs/reference/data_set.md)")
     files = [path.relative_to(folder).as_posix() for path in logs]
     held = len(files) - 1 if len(files) > 1 else -1
     return [{"file": f, "kind": kind, "use": "validate" if k == held else "fit"} for k, f in enumerate(files)]

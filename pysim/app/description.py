@@ -17,7 +17,7 @@ def read_description(path: Path) -> dict[str, Any]:
     """What stands in a dataset.toml, in any encoding that the command line takes.
 
     Raises:
-        BadInput: it cannot be read; the folder, which the user did not choose, is not told.
+        BadInput: it cannot be read; the folder, which the user did not choose, is not named.
     """
     try:
         return read_toml(path, path.name).whole.values

@@ -27,7 +27,7 @@ def held(folder: Path) -> Iterator[Callable[[str], None]]:
     Args:
         folder: of the project.
     Returns:
-        to be told the address of the page, which whoever comes second is told.
+        to learn the address of the page, which whoever comes second learns.
     Raises:
         BadInput: another server has it, or a disk that locks no files.
     """

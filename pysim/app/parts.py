@@ -28,7 +28,7 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         figure: its data and layout.
         label: what is to be seen, for those who cannot see it.
         series: where the samples of a window come from: `url`, `traces`, `span` (s, s) and `most` points.
-        on_pick: told the place that was clicked: x, y, curve, index.
+        on_pick: receives the place that was clicked: x, y, curve, index.
         height: px.
     """
 
@@ -61,8 +61,8 @@ class Table(Element, component=str(_STATIC / "table.js")):
     Args:
         columns: title and kind: "words", "number" or "tick".
         rows: cells: a text, a number, or `{"text", "value", "mark"}`; true or false below "tick".
-        on_row: told the row that was picked.
-        on_tick: told the row, and whether it is ticked.
+        on_row: receives the row that was picked.
+        on_tick: receives the row, and whether it is ticked.
     """
 
     def __init__(
@@ -139,7 +139,7 @@ class Choice(Element, component=str(_STATIC / "choice.js")):
 
     Args:
         label: for those who cannot see it.
-        on_pick: told the one that was chosen.
+        on_pick: receives the one that was chosen.
     """
 
     def __init__(self, label: str, options: Sequence[str], chosen: str, on_pick: Callable[[str], Any]) -> None:

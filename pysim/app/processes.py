@@ -19,7 +19,7 @@ _NAP = 0.02  # s
 
 @dataclass(frozen=True)
 class Started:
-    """A worker, told from a later one that has got its number.
+    """A worker, distinguished from a later one that has got its number.
 
     Args:
         pid: its number.

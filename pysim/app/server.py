@@ -68,7 +68,7 @@ class Holder(contextlib.ExitStack):
     """The project that this server has to itself: one at a time.
 
     Args:
-        address: of the page, which another server that wants the project is told.
+        address: of the page, reported to another server that wants the project.
     """
 
     def __init__(self, address: str) -> None:

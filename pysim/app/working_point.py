@@ -14,13 +14,13 @@ def working_point(offset: float, amplitude: float, unit: str) -> str:
 
     Args:
         offset, amplitude: in an SI unit, "1" or "%".
-        unit: that one; "" where nobody told it.
+        unit: that one; "" where nobody stated it.
     """
     return f"{shown_unit(unit)[1] * offset:g} ± {shown_value(amplitude, unit)}"
 
 
 def command_unit(dataset: Dataset, command: str) -> str:
-    """Unit of the input that offset and amplitude of a test speak of; "" where none is told."""
+    """Unit of the input that offset and amplitude of a test speak of; "" where none is stated."""
     return next((signal.unit for signal in dataset.signals if signal.name == command), "")
 
 

@@ -135,10 +135,10 @@ class _SingleTest:
     folder: str = ""
     use: str = "fit"
 
-    def _run(self, kind: str, usual_name: str, log_from: float, *told: float) -> Iterator[Run]:
-        """One run; `told` is what the log says of itself: offset, amplitude."""
+    def _run(self, kind: str, usual_name: str, log_from: float, *stated: float) -> Iterator[Run]:
+        """One run; `stated` is what the log says of itself: offset, amplitude."""
         source = f"{self.folder}/{self.name or usual_name}.txt"
-        yield Run(source, kind, self.use, self.input, self.outputs, self.command, log_from, *told)
+        yield Run(source, kind, self.use, self.input, self.outputs, self.command, log_from, *stated)
 
 
 @dataclass(frozen=True)

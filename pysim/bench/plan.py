@@ -24,7 +24,7 @@ class Plan:
         inputs: values of the model's inputs that no test drives, in their units.
         follows: input -> (another input, how many of its units per unit of that one): it goes along whenever the other
             is driven, and is logged with it.
-        units: signal -> (unit in the files, how many SI units that is); the SI unit where not told.
+        units: signal -> (unit in the files, how many SI units that is); the SI unit where not specified.
     Raises:
         BadInput: no test, a signal named twice, a test of an unknown signal or of one in the wrong role, an input that
             follows itself or what is none, two tests that would write the same file, on whatever system, or one whose

@@ -17,7 +17,7 @@ class Truth:
         model, token: which FMU.
         parameters: every parameter in force, in the model's SI units.
         parameter_units: of the same names.
-        effect, strength: what the model has beyond the one it will be compared with, as told by the caller.
+        effect, strength: what the model has beyond the one it will be compared with, as the caller states it.
         noise, resolution: of every signal, in its SI unit; None where there is none.
         plan, seed: what it takes to repeat it.
         clean: the same records without sensors, at the instants the logs' rows were taken.

@@ -30,7 +30,7 @@ class Option:
         flags: as typed; the last one names the value, `--settle-periods` as `given.settle_periods`.
         about: a phrase for the help.
         metavar: what stands for the value there; "" for a switch.
-        default: where it is not given; a number is told in the help.
+        default: where it is not given; the help states a number.
         convert: text -> value; raises ArgumentTypeError or ValueError.
         choices: the only texts that are allowed, or what gives them, where they are those of a registry.
         repeated: may be given more than once; the value is a list.

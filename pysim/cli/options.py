@@ -173,7 +173,7 @@ LIBRARY = file(
     repeated=True,
     role=Role.READ,
 )
-SIGNAL = text("--signal", "NAME", "the responding signal, where the logs hold several")
+SIGNAL = text("--signal", "NAME", "name of the response, if the logs hold several")
 REFERENCE_HZ = text(
     "--reference-hz",
     "HZ",

@@ -83,7 +83,7 @@ def run_step(
     """Run a step of the diagnosis and show it; `--output` holds a checkpoint from which a stopped run goes on.
 
     Args:
-        work: the step; takes `progress`, which is told of each event, and `checkpoint`, a path or None.
+        work: the step; takes `progress`, which receives each event, and `checkpoint`, a path or None.
         question, answer: what leads text and page; the verdict by default.
     Raises:
         KeyboardInterrupt: stopped by the user; says how to go on.

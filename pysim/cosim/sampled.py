@@ -42,11 +42,11 @@ class Sampled:
     def __post_init__(self) -> None:
         for attribute in ("inputs", "outputs", "step", "state", "restore"):
             if not hasattr(self.block, attribute):
-                raise BadInput(f"{self.name}: {self.block!r} has no {attribute!r}; give a block (docs/cosim.md)")
+                raise BadInput(f"{self.name}: {self.block!r} has no {attribute!r}; see docs/tutorials/controller.md")
         for port in (*self.block.inputs, *self.block.outputs):
             if not isinstance(port, Port):
                 raise BadInput(
-                    f"{self.name}: its port {port!r} is no Port; write Port(name, unit), as in docs/cosim.md"
+                    f"{self.name}: its port {port!r} is no Port; write Port(name, unit) (docs/tutorials/controller.md)"
                 )
         for name in ("every", "delay"):
             if not isinstance(getattr(self, name), Real):

@@ -38,7 +38,7 @@ def shortcomings(dataset: Dataset, free: Sequence[str], *, at_rest: bool = False
     outputs = {name for record in fitted for name in _outputs(record, dataset)}
     if len(outputs) == 1:
         notes.append(
-            f"only {outputs.pop()} was logged: effects that act alike on it cannot be told apart; log its drive too"
+            f"only {outputs.pop()} was logged: effects that act alike on it cannot be separated; log its drive too"
         )
     return tuple(notes)
 
@@ -70,6 +70,6 @@ def _still(dataset: Dataset, fitted: Sequence[MeasuredRecord], at_rest: bool) ->
     if still and len(still) == len(moves) and not decays:
         raise BadInput(
             f"data set {dataset.name!r}: the input {', '.join(still)} is constant in every record to fit, so nothing "
-            "can be told of what moves; log a test that excites it"
+            "is known of what moves; log a test that excites it"
         )
     return [f"the input {name} never moves in the records that were fitted" for name in still]

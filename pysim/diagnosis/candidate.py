@@ -63,7 +63,7 @@ class Candidate:
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """The same, each of them told from all others: sensor errors with their signal."""
+        """The same, each of them named apart from all others: sensor errors with their signal."""
         return (*(e.name for e in self.effects), *(f"{sensor_name(n)} {n.dataset}.{n.signal}" for n in self.nuisances))
 
     @property

@@ -39,7 +39,7 @@ class StochasticWave:
     Raises:
         BadInput: a number that is not finite or positive where it must be, no component or too many, a seed below zero,
             or an empty band.
-    Source: thesis Appendix A, Eq. 2-4. Differs: frequencies are scattered unless told otherwise, and the variance of
+    Source: thesis Appendix A, Eq. 2-4. Differs: frequencies are scattered by default, and the variance of
     each interval is taken exactly, not as width times the density at its centre.
     """
 

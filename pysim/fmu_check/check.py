@@ -55,7 +55,7 @@ def check_fmu(
 
     Args:
         checks: their names, of CHECKS.
-        progress: told of checks done and of all.
+        progress: receives the checks done and all.
         patience: s that the FMU may take for an answer before its check is stopped; more than a second.
     Returns:
         the results in the order of the checks.

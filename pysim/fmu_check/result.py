@@ -42,7 +42,7 @@ def within(check: str, claim: str, value: float, limit: float, unit: str, detail
 
 
 def none_of(check: str, claim: str, names: Iterable[str], *, otherwise: str = FAILS, note: str = "") -> CheckResult:
-    """Holds where there are no names; the first of them are told otherwise."""
+    """Holds where there are no names; otherwise the first of them are named."""
     found = list(names)
     if not found:
         return CheckResult(check, claim, HOLDS, note)

@@ -27,7 +27,7 @@ _LOST = 0.01  # error as a share of a state's size from which on a method is far
 
 
 def check_runs(subject: Subject) -> Iterator[CheckResult]:
-    """Both kinds of the FMU tell one story, whatever the communication step."""
+    """Both kinds of the FMU give one answer, whatever the communication step."""
     if CO_SIMULATION not in subject.kinds:
         yield skipped(RUNS, "co-simulation runs", "the FMU has none")
         return

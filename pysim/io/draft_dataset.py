@@ -88,7 +88,7 @@ def draft_dataset(folder: Path, inputs: Mapping[str, str], responses: Mapping[st
     for path in logs:
         columns = [Column(heading, *name_and_unit(heading)) for heading in column_names(path)]
         if columns[0].heading == _TABLE:
-            found.remarks.append(f"left out: {_source(found, path)} is a table of responses; docs/data.md shows how")
+            found.remarks.append(f"left out: {_source(found, path)} is a table; see docs/reference/data_set.md")
         else:
             _take(found, path, columns, named=bool(inputs or responses))
     if not found.columns:

@@ -155,7 +155,7 @@ def _command(section: Section, names: tuple[str, ...], signals: Mapping[str, Mea
 
 
 def _test(section: Section, kind: str, scale: Scale) -> tuple[float | None, float | None, float | None]:
-    """Offset and amplitude in SI units or %, and the frequency in Hz, as far as told."""
+    """Offset and amplitude in SI units or %, and the frequency in Hz, as far as stated."""
     for key in KINDS[kind].needs:
         if key not in section.values:
             raise BadInput(f'{section.place}: {key} is missing, and kind = "{kind}" needs it; write {key} = a number')

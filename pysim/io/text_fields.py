@@ -52,7 +52,7 @@ def without_end_mark(line: str) -> str:
 
 
 def row_fields(line: str, columns: tuple[str, ...], usual: Dialect | None = None) -> tuple[list[str], Dialect]:
-    """Fields of a row, and how they were told apart.
+    """Fields of a row, and how they were separated.
 
     What a column that is left out holds may look like separators. So the dialect counts that gives a field for each
     column, and numbers in those that are wanted; where there is none, one that gives the fields alone, or the usual.

@@ -175,7 +175,7 @@ def _looks_like_row(line: str, columns: tuple[str, ...]) -> bool:
 
 
 def _is_header(fields: list[str], width: int) -> bool:
-    """Whether a line above the first row names columns or tells a story, and is not a row with a misprint."""
+    """Whether a line above the first row names columns or is a remark, and is not a row with a misprint."""
     numbers = [number(field) is not None for field in fields]
     return not any(numbers) or (not numbers[0] and len(fields) != width)
 

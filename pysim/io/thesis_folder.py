@@ -1,4 +1,4 @@
-"""Stepped-sine logs without a dataset.toml: what they are is told by the names of folders and files."""
+"""Stepped-sine logs without a dataset.toml: the names of folders and files say what they are."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _IMPURE = 0.2  # of the amplitude: what a command may differ from a sine for its
 
 @dataclass(frozen=True)
 class _Named:
-    """A log and what its name says: Hz, and offset and amplitude in the command's unit where they are told."""
+    """A log and what its name says: Hz, and offset and amplitude in the command's unit where they are stated."""
 
     path: Path
     frequency: float

@@ -73,5 +73,5 @@ def unit_cure(unit: str, among: Sequence[str] = UNITS) -> str:
     small = {one.casefold(): one for one in reversed(among)}
     near = [small[one] for one in get_close_matches(unit.casefold(), list(small), n=2)]
     if near:
-        return f"did you mean {' or '.join(near)}? docs/data.md lists all"
+        return f"did you mean {' or '.join(near)}? pysim.types.UNITS lists all"
     return f"use one of {', '.join(one for one in among if one not in SYNONYMS)}"

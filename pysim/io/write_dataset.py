@@ -41,7 +41,7 @@ def write_dataset(
 
     Args:
         folder: made here; must be empty or not there. Records go to the files they name as their source.
-        units: signal -> unit in the files; its own unit where not told.
+        units: signal -> unit in the files; its own unit where not specified.
         steps: of the preparation, done again whenever the data set is read.
         exact: whether all digits are printed, whatever they mean.
     Returns:

@@ -110,7 +110,7 @@ def verdicts(bla: BestLinearApproximation) -> tuple[str, ...]:
         f"{shown_value(test.offset, test.input_unit, '.4g')} with {shown_value(test.rms, test.input_unit, '.4g')} rms"
     )
     if bla.on_lines is None or bla.noise is None:
-        return (done, "Without a second period noise and distortion cannot be told apart.")
+        return (done, "Without a second period noise and distortion cannot be separated.")
     found = [_verdict(words, level) for words, level in (("even", bla.even), ("odd", bla.odd)) if level is not None]
     if bla.odd is None:
         found.append(_verdict("on the excited lines, even and odd together,", bla.on_lines))

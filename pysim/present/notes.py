@@ -31,7 +31,7 @@ _WORDS = {
         "missing in the model, so do not trust the intervals; run the diagnosis."
     ),
     NoteCode.CORRELATED: (
-        "{first} and {second} can hardly be told apart (correlation {correlation:.2f}): fix one of them, or log what "
+        "{first} and {second} are hardly distinguishable (correlation {correlation:.2f}). Fix one of them, or log what "
         "depends on one alone."
     ),
     NoteCode.NOT_AT_REST: (
@@ -79,7 +79,7 @@ _WORDS = {
         "integrator. It counts as known there, so the intervals are too narrow."
     ),
     NoteCode.INTEGRATOR: (
-        "The pole at {frequency:.2g} Hz cannot be told from an integrator: it is slower than any measured frequency. "
+        "The pole at {frequency:.2g} Hz may be an integrator: it is slower than any measured frequency. "
         "The gain at rest is not determined; the response within the measured band is."
     ),
     NoteCode.UNSTABLE: (
@@ -90,7 +90,7 @@ _WORDS = {
         "The data do not determine {names}: other values give the same response. Ask for fewer poles and zeros."
     ),
     NoteCode.CANCELLING: (
-        "The pole at {pole:.4g} Hz and the zero at {zero:.4g} Hz cannot be told apart and cancel: the data support "
+        "The pole at {pole:.4g} Hz and the zero at {zero:.4g} Hz cannot be distinguished and cancel: the data support "
         "fewer of both."
     ),
     NoteCode.UNBOUNDED: (

@@ -1,4 +1,4 @@
-"""What goes on, told while it goes on: drawn over on a terminal and in a notebook, by lines elsewhere."""
+"""What goes on, shown while it goes on: drawn over on a terminal and in a notebook, by lines elsewhere."""
 
 from __future__ import annotations
 

@@ -53,7 +53,7 @@ def rig_system(
         rig: LoadCircuit.Rig, or what has its inputs and outputs, called "rig".
         dt: s between two steps of both controllers.
         speed, load: with this dt and the ports of the thesis' controllers, which they are by default (Table 6.1,
-            manually tuned); a load controller with an input "supply" is told the supply pressure too.
+            manually tuned); a load controller with an input "supply" receives the supply pressure too.
         feed: whose flow the load controller feeds forward: the reference's, as in the thesis, the pulses', or the
             true speed's, as a good sensor would tell it.
         crane: Crane.IdealCompensation, called "crane".

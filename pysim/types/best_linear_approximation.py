@@ -116,7 +116,7 @@ class BestLinearApproximation:
         variance: (n_f,) E|error|^2 of the gain, by noise and distortion together; its real and imaginary parts have
             half of it each and are not correlated.
         degrees: (n_f,) degrees of freedom of `variance`, counted in real numbers.
-        noise_variance: (n_f,) the noise's share of `variance`, or None where it cannot be told apart.
+        noise_variance: (n_f,) the noise's share of `variance`, or None where it cannot be separated.
         test: what was done.
         method: how it was found, in a few words.
         origin: of the records.
@@ -124,7 +124,7 @@ class BestLinearApproximation:
         mean: of the output, in its unit.
         mean_variance: of `mean`.
         total: noise and distortion together on the excited lines, or None where only noise can be seen.
-        noise: its noise, or None where it cannot be told apart.
+        noise: its noise, or None where it cannot be separated.
         on_lines: distortion on the excited lines, which disturbs the gain.
         even, odd: distortion by even and odd powers, each on the lines where it alone can be; None where no such lines
             were left free.

@@ -57,7 +57,7 @@ class MeasuredRecord:
         kind: name of one of `KINDS`.
         use: one of `USES`.
         data: signals over time, or a response over frequency.
-        offset: what the command was meant to swing around, in the input's unit, or None where not told.
+        offset: what the command was meant to swing around, in the input's unit, or None where not stated.
         amplitude: the same of its swing.
         frequency: Hz, of a stepped sine; None for all else.
         command: name of the input that the three speak of; empty where a log has several inputs and does not say.

@@ -27,7 +27,7 @@ class Outcome(Enum):
     TOO_MANY_EVENTS = "events follow each other without time passing"
     NOT_CONVERGED = "an iteration between members came to no end"
     NOT_PERIODIC = "no periodic steady state was found"
-    STOPPED = "the run was told to stop"
+    STOPPED = "the run was asked to stop"
 
 
 @dataclass(frozen=True)

@@ -92,7 +92,7 @@ class Case:
         return times, np.column_stack([given, read])
 
     def write(self, folder: Path) -> Path:
-        """Write the data set, as `docs/data.md` describes it."""
+        """Write the data set, as `docs/reference/data_set.md` describes it."""
         folder.mkdir(parents=True, exist_ok=True)
         plant, lines = self.plant, ["[dataset]", f'name = "{self.name.rpartition("/")[2]}"', 'system = "plant"']
         lines += [f"[signals.{plant.command}]", 'role = "input"', f'unit = "{plant.unit}"']

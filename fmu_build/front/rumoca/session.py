@@ -36,7 +36,7 @@ def compile_class(
     """rumoca's DAE form and flat form of the class, with `overrides` as modifications.
 
     Raises:
-        BuildError: the class cannot be compiled, or only without the overrides, which are then to blame.
+        BuildError: the class cannot be compiled, or only without the overrides, which are then the cause.
     """
     modified = modification(overrides)
     try:

@@ -49,7 +49,7 @@ def _build(desk: Desk) -> None:
 
 
 def _rows(answer: Answer | None) -> list[Mapping[str, Any]]:
-    """Of the first round, best first; a later round is told by the verdict."""
+    """Of the first round, best first; the verdict reports a later round."""
     if answer is None:
         return []
     first = [row for row in answer.data["ranking"] if row["round"] == 1]

@@ -234,7 +234,7 @@ def _bode(desk: Desk, view: _View) -> None:
 
 
 def _points(tests: Sequence[Mapping[str, Any]], dataset: Dataset) -> list[str]:
-    """What frequency responses are told apart by."""
+    """What distinguishes frequency responses."""
     several = len({test["output"] for test in tests}) > 1
     points = [working_point(t["offset"], t["amplitude"], response_unit(dataset, t)) for t in tests]
     return [f"{p}, {t['output']}" if several else p for p, t in zip(points, tests, strict=True)]

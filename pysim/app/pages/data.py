@@ -200,7 +200,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     with card(f"{counted(len(check.records), 'record')}, {held} {USES['validate']}"):
         text(
             "p",
-            f"What is {USES['validate']} is never fitted: it shows whether the model foresees. Click a row to see it.",
+            f"What is {USES['validate']} is never fitted. It shows how well the model predicts. Click a row to see it.",
             "small",
         )
         Table(

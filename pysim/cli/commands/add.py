@@ -29,6 +29,6 @@ COMMAND = step_command(
     "add",
     "Add effects to a model, refit everything, and write the extended class with its FMU.",
     run,
-    names("--effects", "to add, by their standard names, in order", required=True),
+    names("--effects", "effects to add, in this order", required=True),
     what=", parameters.toml, the extended class and its FMU",
 )

@@ -36,9 +36,9 @@ COMMAND = Command(
     "Open the workbench in the browser: compare, locate, add an effect, and watch the error fall.",
     run,
     options=(
-        argument("PROJECT", "its folder (workbench)", convert=Path, nargs="?", default=Path("workbench")),
-        number("--port", "N", 0, "to listen at, or 0 for a free one", convert=int),
-        text("--host", "NAME", "to listen at; the default is this machine alone", default="127.0.0.1"),
+        argument("PROJECT", "folder of the project (workbench)", convert=Path, nargs="?", default=Path("workbench")),
+        number("--port", "N", 0, "port to listen on; 0 takes any free port", convert=int),
+        text("--host", "NAME", "address to listen on; by default only this machine reaches it", default="127.0.0.1"),
         switch("--no-browser", "print the address and open nothing"),
     ),
 )

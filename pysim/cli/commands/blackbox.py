@@ -56,7 +56,7 @@ def _test(word: str) -> tuple[float, float]:
     return offset, amplitude
 
 
-_WEIGHTS = "by the noise of each point (where it is known), all alike (elsewhere), or in proportion to the gain"
+_WEIGHTS = "how points are weighted: by their noise (if known), all alike (otherwise), or in proportion to the gain"
 
 COMMAND = Command(
     "blackbox",
@@ -64,13 +64,13 @@ COMMAND = Command(
     run,
     options=(
         DATASET,
-        number("--poles", "N", None, "how many; with --orders, the most to try", convert=int, required=True),
-        number("--zeros", "M", 0, "how many", convert=int),
-        number("--dead-time", "S", 0.0, "known, or the smallest to try, s"),
-        number("--dead-time-max", "S", None, "estimate a dead time of up to this, s"),
+        number("--poles", "N", None, "number of poles; with --orders, the largest to try", convert=int, required=True),
+        number("--zeros", "M", 0, "number of zeros", convert=int),
+        number("--dead-time", "S", 0.0, "known dead time, or the smallest to try, s"),
+        number("--dead-time-max", "S", None, "estimate the dead time, up to this, s"),
         switch("--stable", "allow stable poles only"),
         choice("--weights", "", ("covariance", "uniform", "relative"), _WEIGHTS),
-        choice("--orders", None, ("suggest",), "compare all structures up to --poles, take the best"),
+        choice("--orders", None, ("suggest",), "compare all structures up to --poles and take the best"),
         text("--test", "O/A", "only this offset/amplitude, as --test=-25/10; repeat", repeated=True, convert=_test),
         SIGNAL,
         JSON,

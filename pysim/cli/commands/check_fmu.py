@@ -34,8 +34,8 @@ COMMAND = Command(
     "Try FMUs as a strict importer would, and name their faults.",
     run,
     options=(
-        Option(("FILES",), "of any tool, FMI 2 or 3", "FILE.fmu", convert=Path, nargs="+", role=Role.READ),
-        switch("--strict", "what is doubtful counts as failing"),
+        Option(("FILES",), "FMUs of any tool, FMI 2 or 3", "FILE.fmu", convert=Path, nargs="+", role=Role.READ),
+        switch("--strict", "count doubtful results as failing"),
         JSON,
         OUTPUT,
     ),

@@ -70,14 +70,14 @@ COMMAND = Command(
     run,
     options=(
         replace(DATASET, about="folder with a dataset.toml, or a single log", metavar="DATASET|LOG", read=_read),
-        text("--columns", "TIME,COMMAND,RESPONSE", "of a single log, in its order; the first must be time"),
-        text("--units", "UNIT,UNIT", f"of command and response there ({_UNITS})"),
+        text("--columns", "TIME,COMMAND,RESPONSE", "column names of a single log, in order; the first is time"),
+        text("--units", "UNIT,UNIT", f"units of command and response in a single log ({_UNITS})"),
         SIGNAL,
         number(
             "--level",
             "LEVEL",
             None,
-            "what tops and bottoms count from, in the response's SI unit (the command's offset)",
+            "level from which tops and bottoms count, in the response's SI unit (the command's offset)",
         ),
         JSON,
         OUTPUT,

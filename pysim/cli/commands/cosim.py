@@ -107,10 +107,10 @@ COMMAND = Command(
     "Run a system of FMUs and controllers that a file describes.",
     run,
     options=(
-        Option(("SYSTEM",), "what is wired to what, and its run", "FILE.toml|FILE.ssp", convert=Path),
+        Option(("SYSTEM",), "file that describes members, wires and run", "FILE.toml|FILE.ssp", convert=Path),
         number("--stop", "SECONDS", None, "end of the run (the file's own)"),
-        number("--step", "SECONDS", None, "between two communication points (the file's own)"),
-        file("--export-ssp", "FILE.ssp", "write the system's FMUs and wires; no run", role=Role.VALUE),
+        number("--step", "SECONDS", None, "communication step (the file's own)"),
+        file("--export-ssp", "FILE.ssp", "write FMUs and wires as an SSP package, without a run", role=Role.VALUE),
         JSON,
         OUTPUT,
     ),

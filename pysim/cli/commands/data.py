@@ -108,8 +108,8 @@ def _signal(role: str, text: str) -> MeasuredSignal:
 
 
 _COMMAND = "the command, second column of logs without a dataset.toml whose names tell their frequency"
-_DRIVES = "what drives the plant, by its heading, or in the order of the columns (the second)"
-_BEHIND = "the columns behind it, one by one"
+_DRIVES = "inputs, by their headings or in the order of the columns (the second)"
+_BEHIND = "outputs, the columns behind it"
 
 COMMAND = Command(
     "data",
@@ -132,7 +132,7 @@ COMMAND = Command(
             "draft a dataset.toml into a folder of logs that has none",
             _describe,
             options=(
-                argument("FOLDER", "of logs; nothing else in it is changed", convert=Path),
+                argument("FOLDER", "folder of logs; nothing else in it is changed", convert=Path),
                 names("--input", _DRIVES, "NAME:UNIT,..."),
                 names("--response", _BEHIND, "NAME:UNIT,..."),
             ),
@@ -143,11 +143,11 @@ COMMAND = Command(
             _prepare,
             options=(
                 argument("SOURCE", "a data set, or a file, folder or pattern of logs", role=Role.READ),
-                text("--step", "STEP:...", "flip:x, trim:start=0.5 and others, in order; repeat", repeated=True),
-                names("--input", "what drives the plant, by its heading", "NAME[:UNIT],..."),
-                names("--response", "what answers", "NAME[:UNIT],..."),
-                text("--time", "HEADING", "the clock, where its values do not tell it"),
-                file("--into", "FOLDER", "a new folder", role=Role.VALUE, required=True),
+                text("--step", "STEP:...", "preparation step such as flip:x or trim:start=0.5; repeat", repeated=True),
+                names("--input", "inputs, by their headings; commas or repeat", "NAME[:UNIT],..."),
+                names("--response", "outputs, by their headings; commas or repeat", "NAME[:UNIT],..."),
+                text("--time", "HEADING", "heading of the time column, if several could be it"),
+                file("--into", "FOLDER", "new folder for the data set", role=Role.VALUE, required=True),
             ),
         ),
     ),

@@ -101,6 +101,6 @@ COMMAND = Command(
     run,
     options=(
         replace(OUTPUT, about="write everything here (results/demo)", default=Path("results/demo"), role=Role.VALUE),
-        switch("--quick", "8 frequencies in place of 19"),
+        switch("--quick", "run 8 frequencies, not 19"),
     ),
 )

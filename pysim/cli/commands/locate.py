@@ -29,6 +29,6 @@ COMMAND = step_command(
     "locate",
     "Estimate what is missing at each place of a model, and its shape, without naming an effect.",
     run,
-    names("--with", "effects that the model is to have already"),
+    names("--with", "effects that are in the model already"),
     what=", parameters.toml",
 )

@@ -127,13 +127,13 @@ COMMAND = Command(
     run,
     options=(
         replace(DATASETS, about="data set, or records as .csv or .npz", read=None),
-        number("--period", "SECONDS", None, "of the multisine; none: any broadband signal"),
-        text("--input", "NAME", "what excites; the only input by default"),
+        number("--period", "SECONDS", None, "period of the multisine; none for any broadband signal"),
+        text("--input", "NAME", "input (the only one)"),
         SIGNAL,
-        text("--reference", "NAME", "known command, where the input is measured or in a loop"),
+        text("--reference", "NAME", "known command, if the input is measured or in a loop"),
         text("--records", "PATTERN", "only logs of this name, as multisine/*.txt", default="*"),
         number("--start", "SECONDS", None, "first period (found in the command)"),
-        number("--periods", "N", None, "how many of each log (all)", convert=int),
+        number("--periods", "N", None, "number of periods to take of each log (all)", convert=int),
         choice(
             "--method",
             "auto",
@@ -141,7 +141,7 @@ COMMAND = Command(
             "robust: several realisations; fast: lines left free; smooth: local polynomial over periods; arbitrary: "
             "local polynomial without periods; auto: what the logs allow",
         ),
-        number("--drop", "N", None, "leave out periods, in place of estimating the transient", convert=int),
+        number("--drop", "N", None, "periods to leave out instead of estimating the transient", convert=int),
         text("--lines", "LIST", "excited harmonics, as 1,3,7-99:2 (found in the command)"),
         number("--band", "HZ", None, "lowest and highest line, without a period", nargs=2),
         JSON,

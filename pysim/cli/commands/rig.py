@@ -89,9 +89,9 @@ def _run(
 
 
 _SHARED = (
-    number("--dt", "SECONDS", 1e-3, "of controllers and coupling"),
-    Option(("--fmi",), "version of the FMUs", "2|3", default=2, convert=int, choices=("2", "3")),
-    choice("--interface", "co-simulation", ("co-simulation", "model-exchange"), "of the FMUs"),
+    number("--dt", "SECONDS", 1e-3, "step of controllers and coupling"),
+    Option(("--fmi",), "FMI version of the FMUs", "2|3", default=2, convert=int, choices=("2", "3")),
+    choice("--interface", "co-simulation", ("co-simulation", "model-exchange"), "kind of FMU"),
     JSON,
     OUTPUT,
 )
@@ -105,9 +105,9 @@ COMMAND = Command(
             "Steps of speed and load pressure.",
             _step,
             options=(
-                number("--speed", "RAD/S", 30.0, "size of its step"),
+                number("--speed", "RAD/S", 30.0, "size of the speed's step"),
                 number("--load", "BAR", 40.0, "size of the load pressure's step, at that speed"),
-                number("--length", "SECONDS", 30.0, "behind the step"),
+                number("--length", "SECONDS", 30.0, "time after the step"),
                 *_SHARED,
             ),
         ),
@@ -118,8 +118,8 @@ COMMAND = Command(
             options=(
                 number("--height", "M", 2.0, "significant height"),
                 number("--period", "SECONDS", 10.0, "peak period"),
-                number("--seed", "N", 1, "of the wave's phases", convert=int),
-                number("--length", "SECONDS", 60.0, "of the wave"),
+                number("--seed", "N", 1, "random seed of the wave's phases", convert=int),
+                number("--length", "SECONDS", 60.0, "length of the wave"),
                 *_SHARED,
             ),
         ),

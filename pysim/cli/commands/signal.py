@@ -125,18 +125,18 @@ def _needed(flag: str, unit: str, about: str) -> Option:
     return number(flag, unit, None, about, required=True)
 
 
-_AMPLITUDE = _needed("--amplitude", "A", "of the sine, in the command's unit")
-_SEED = number("--seed", "N", 0, "of the random phases", convert=int)
+_AMPLITUDE = _needed("--amplitude", "A", "amplitude of the sine, in the command's unit")
+_SEED = number("--seed", "N", 0, "random seed of the phases", convert=int)
 _PLACES = ("file", "output")
 _SHARED = (
-    number("--offset", "LEVEL", 0.0, "what the command is around, in its unit"),
-    number("--rest", "SECONDS", 0.5, "at zero before"),
-    number("--ramp", "SECONDS", 0.5, "to the offset"),
-    number("--hold", "SECONDS", 1.0, "at the offset"),
-    number("--ramp-down", "SECONDS", 0.5, "back to zero"),
-    text("--unit", "UNIT", "of the command, for header and picture", default="%"),
+    number("--offset", "LEVEL", 0.0, "offset of the command, in its unit"),
+    number("--rest", "SECONDS", 0.5, "rest at zero before the test"),
+    number("--ramp", "SECONDS", 0.5, "ramp to the offset"),
+    number("--hold", "SECONDS", 1.0, "hold at the offset"),
+    number("--ramp-down", "SECONDS", 0.5, "ramp back to zero"),
+    text("--unit", "UNIT", "unit of the command", default="%"),
     number("--sampling", "HZ", 1000.0, "rows per second"),
-    Option(("-o", "--file"), "time, value and rate; needed", "FILE.csv", convert=Path, role=Role.FILE),
+    Option(("-o", "--file"), "file for time, value and rate; required", "FILE.csv", convert=Path, role=Role.FILE),
     file("--output", "DIR", "write the picture and report.html here; a .csv is taken as --file", role=Role.VALUE),
 )
 
@@ -155,34 +155,34 @@ COMMAND = Command(
             "one sine around an offset (thesis Eq. 2.1)",
             _stepped_sine,
             _AMPLITUDE,
-            _needed("--frequency", "HZ", "of the sine"),
-            number("--periods", "N", 10.0, "how many"),
+            _needed("--frequency", "HZ", "its frequency"),
+            number("--periods", "N", 10.0, "number of periods"),
         ),
         _kind(
             "chirp",
             "a sine of linearly changing frequency (thesis Eq. 2.2)",
             _chirp,
             _AMPLITUDE,
-            number("--start-hz", "HZ", 0.1, "frequency at its start"),
-            number("--stop-hz", "HZ", 30.0, "frequency at its end"),
-            _needed("--sweep", "SECONDS", "from the one to the other"),
+            number("--start-hz", "HZ", 0.1, "first frequency"),
+            number("--stop-hz", "HZ", 30.0, "last frequency"),
+            _needed("--sweep", "SECONDS", "duration of the sweep"),
         ),
         _kind(
             "stochastic",
             "a wave with the Pierson-Moskowitz spectrum (thesis Appendix A)",
             _stochastic,
             _needed("--height", "H", "significant height, in the command's unit"),
-            _needed("--peak-period", "SECONDS", "of the spectrum"),
-            number("--length", "SECONDS", 30.0, "of the wave"),
-            number("--components", "N", 100, "how many sines", convert=int),
+            _needed("--peak-period", "SECONDS", "peak period of the spectrum"),
+            number("--length", "SECONDS", 30.0, "length of the wave"),
+            number("--components", "N", 100, "number of sines", convert=int),
             _SEED,
         ),
         _kind(
             "step",
             "a step from one level to another",
             _step,
-            _needed("--height", "H", "of the step, either sign, in the command's unit"),
-            _needed("--length", "SECONDS", "at each level"),
+            _needed("--height", "H", "height of the step, of either sign, in the command's unit"),
+            _needed("--length", "SECONDS", "time at each level"),
             switch("--back", "step back again"),
         ),
         _kind(
@@ -194,8 +194,8 @@ COMMAND = Command(
             number("--high-hz", "HZ", 30.0, "highest line"),
             number("--rms", "LEVEL", None, "level without the offset, in the command's unit"),
             number("--peak", "LEVEL", None, "or the largest deviation from the offset, in the command's unit"),
-            choice("--lines", "random-odd", ("full", "odd", "random-odd"), "that are excited"),
-            number("--periods", "N", 3.0, "how many"),
+            choice("--lines", "random-odd", ("full", "odd", "random-odd"), "kind of excited lines"),
+            number("--periods", "N", 3.0, "number of periods"),
             _SEED,
         ),
     ),

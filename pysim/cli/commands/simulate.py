@@ -128,7 +128,7 @@ COMMAND = Command(
         INPUT,
         SET,
         PARAMETERS,
-        choice("--solver", "rodas", ("rodas", "rk45"), "for stiff models or for others"),
+        choice("--solver", "rodas", ("rodas", "rk45"), "rodas for stiff models, rk45 for others"),
         replace(OUTPUT, about=_OUTPUT, metavar="FILE", role=Role.FILE, suffixes=(".csv", ".npz")),
         replace(JSON, about="write record and statistics here"),
     ),

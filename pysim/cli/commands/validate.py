@@ -92,6 +92,6 @@ COMMAND = Command(
         switch("--list", "say which cases there are, and run none"),
         Option(("-o", "--output"), "write report.html, summary.md and pictures here", "DIR", convert=Path),
         Option(("--json",), "write all numbers here, a line of JSON per case", "FILE", convert=Path),
-        switch("--record", "keep the results in the checkout, and write its summary and README anew"),
+        switch("--record", "keep the results in the checkout, and write its summary anew"),
     ),
 )

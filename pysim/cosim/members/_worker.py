@@ -1,4 +1,4 @@
-"""The other process: one member, told what to do through its standard input. Begun by `Isolated`."""
+"""The other process: one member, which receives its orders through its standard input. Begun by `Isolated`."""
 
 from __future__ import annotations
 

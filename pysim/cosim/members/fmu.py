@@ -35,7 +35,7 @@ class Fmu:
         interface: "co-simulation" (it steps by itself) or "model-exchange" (`solver` steps it); "" takes the first of
             them that it offers.
         solver: for model exchange.
-        events: False lets an FMI 3 FMU handle its events alone, at the price of events that others see a step later.
+        events: False lets an FMI 3 FMU handle its events alone; others then see these events a step later.
         feedthrough: which outputs follow inputs at once. "standard": as the FMU declares it, and where it does not,
             all inputs; "declared": as it declares it, and no more; "none": outputs are what a step leaves, which is all
             that FMI 2.0 co-simulation asks of an FMU, and what most other masters take.

@@ -18,7 +18,7 @@ _VALUE_FILE = "application/x-ssp-parameter-set"
 
 
 class Value(NamedTuple):
-    """What a parameter is set to, in the unit it is told in; "" is the FMU's own."""
+    """What a parameter is set to, in the unit it is stated in; "" is the FMU's own."""
 
     name: str
     number: float

@@ -26,7 +26,7 @@ class Roots:
 
     Args:
         cancelling: pairs (pole, zero) by place that cancel.
-        at_origin: places of the poles that cannot be told from integrators.
+        at_origin: places of the poles that cannot be distinguished from integrators.
     """
 
     poles: tuple[Root, ...]

@@ -86,7 +86,7 @@ def chirp_responses(
         output: the responding signal; may be left out where the logs hold a single one.
         level: as for `analyse_chirp`.
     Raises:
-        BadInput: no such logs, no input or output to be told apart, or a log that `analyse_chirp` refuses.
+        BadInput: no such logs, no input or output to be distinguished, or a log that `analyse_chirp` refuses.
     """
     found = []
     for record in dataset.records:

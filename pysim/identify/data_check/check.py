@@ -41,9 +41,9 @@ class RecordCheck:
         signals: what was logged, or input and output of a table.
         rows: samples, or frequencies of a table.
         clock: of a log; None for a table.
-        offset, amplitude, frequency: as told.
-        command: input that these three speak of; empty where none is told.
-        unit: of offset and amplitude; empty where no input is told.
+        offset, amplitude, frequency: as stated.
+        command: input that these three speak of; empty where none is stated.
+        unit: of offset and amplitude; empty where no input is stated.
         findings: what should be looked at.
     """
 
@@ -200,7 +200,7 @@ def _of_output(
 
 
 def _wave_inside(record: MeasuredRecord, log: Record) -> slice:
-    """The samples of a sine or chirp behind its lead-in and before its ramp back; all where that cannot be told."""
+    """The samples of a sine or chirp behind its lead-in and before its ramp back; all where that is not known."""
     try:
         wave = logged_wave(replace(record, data=log), record.command)
     except BadInput:
@@ -234,7 +234,7 @@ def _of_sine(
 
 
 def _of_level(record: MeasuredRecord, command: MeasuredSignal, offset: float, amplitude: float) -> Iterator[Finding]:
-    """Offset and amplitude that were found against those that were told."""
+    """Offset and amplitude that were found against those that were stated."""
     for what, wanted, got in (("offset", record.offset, offset), ("amplitude", record.amplitude, amplitude)):
         if wanted is not None and abs(got - wanted) > _OFF * float(record.amplitude or abs(wanted) or 1.0):
             yield finding(

@@ -73,7 +73,7 @@ def measured_responses(
     Returns:
         in the order in which the groups appear in the data set; frequencies increase.
     Raises:
-        BadInput: no such logs, no input or output to be told apart, or a log that `sine_point` refuses.
+        BadInput: no such logs, no input or output to be distinguished, or a log that `sine_point` refuses.
     Source: thesis Section 2.3.
     """
     groups: dict[tuple[_Test, int], dict[float, SinePoint]] = {}

@@ -48,7 +48,7 @@ class Effort:
         starts: searches from starts drawn at random, besides the given and the nominal one.
         seed: of the draw.
         nominal: search from the model's own values too, where the given start is another. A fit that starts from a
-            bent optimum may never leave it; leave this out only where the start is trusted.
+            biased optimum may never leave it; leave this out only where the start is trusted.
         rough: begin with rough simulations; leave this out where their errors are known to count.
         log: folder for a log per search; None keeps none.
         resume: go on where the log of a killed fit ends; it has to be one of the same problem, to the last bit.

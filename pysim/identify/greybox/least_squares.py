@@ -107,7 +107,7 @@ class GaussNewton:
         return self._counted(state)
 
     def _bends(self, state: State, bounds: Bounds) -> bool:
-        """Whether what is promised up to where steps were seen to fail is nothing, or cannot be told from nothing."""
+        """Whether what is promised up to where steps were seen to fail is nothing, or as good as nothing."""
         step, small = _Step.at(state.best, bounds), self._small(state.best)
         promised = step.predicted(step.within(state.memory["radius"])) + _own_gain(state)
         return promised < max(small, min(blur_of(state.best), _SETTINGS.close * small))

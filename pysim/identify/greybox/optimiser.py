@@ -1,4 +1,4 @@
-"""What an optimiser is: it proposes a point, is told what came of it, and keeps its state as a value."""
+"""What an optimiser is: it proposes a point, receives what came of it, and keeps its state as a value."""
 
 from __future__ import annotations
 

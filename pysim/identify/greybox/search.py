@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 class Tried(NamedTuple):
-    """What a progress callback is told: which search, points tried, the best cost so far, and the last point's."""
+    """What a progress callback receives: which search, points tried, the best cost so far, and the last point's."""
 
     search: str
     tried: int

@@ -160,7 +160,7 @@ class TrustSettings:
     correlated: float = setting(
         0.98,
         unit="1",
-        meaning="correlation of two estimates from which on they are hardly told apart",
+        meaning="correlation of two estimates from which on they are hardly distinguishable",
         source="one alone would be known five times as well: 1/sqrt(1 - r^2)",
     )
     vague: float = setting(

@@ -36,7 +36,7 @@ def local_fit(regressors: Complex, responses: Complex) -> LocalFit:
         regressors: (n, w, p), w > p.
         responses: (n, w, n_y).
     Raises:
-        BadInput: too few equations, or unknowns that cannot be told apart.
+        BadInput: too few equations, or unknowns that cannot be separated.
     """
     _, w, p = regressors.shape
     if w <= p:
@@ -48,7 +48,7 @@ def local_fit(regressors: Complex, responses: Complex) -> LocalFit:
     diagonal = np.abs(np.diagonal(r, axis1=1, axis2=2))
     if np.any(diagonal.min(axis=1) < _CONDITION):
         raise BadInput(
-            "local polynomial: gain and transient cannot be told apart in a window; excite more lines or widen it"
+            "local polynomial: gain and transient cannot be separated in a window; excite more lines or widen it"
         )
     adjoint = np.conj(np.swapaxes(q, 1, 2))
     projected = adjoint @ responses

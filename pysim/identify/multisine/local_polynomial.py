@@ -66,7 +66,7 @@ def local_polynomial_approximation(
     """The gain from one record of any length and excitation, free of leakage to the order of the polynomials.
 
     Y(k + r) = (sum_s g_s r^s) U(k + r) + sum_s t_s r^s + V(k + r), solved for r = -n ... n around every line k; the
-    gain is g_0, the transients of plant and noise are t_0. Noise and stochastic distortion cannot be told apart without
+    gain is g_0, the transients of plant and noise are t_0. Noise and stochastic distortion cannot be separated without
     periods: `total` holds both.
 
     Args:
@@ -74,7 +74,7 @@ def local_polynomial_approximation(
         columns: names of input and output and, where the input is measured with noise or stands in a loop, of a known
             command; the gain is then the ratio of the responses to it.
         band: Hz, lowest and highest line; where the input is within 40 dB of its highest line by default. Lines around
-            which the input is as smooth as a transient, and cannot be told from one, are left out in any case.
+            which the input is as smooth as a transient, and cannot be separated from one, are left out in any case.
         settings: order and width.
     Returns:
         a gain per line of the record's spectrum; estimates less than 2 half_width lines apart share data.

@@ -41,7 +41,7 @@ def moments_of(cells: NDArray[Any], where: str, form: str = "") -> Moments | Non
         where: file and column, for messages.
         form: how they are written, as of `datetime.strptime`; any usual one where empty.
     Raises:
-        BadInput: days and months that cannot be told apart, or a zone that nobody knows.
+        BadInput: days and months that cannot be distinguished, or a zone that nobody knows.
     """
     if cells.dtype.kind == "M":
         return cells.astype("datetime64[ns]")

@@ -186,7 +186,7 @@ def _labview(header: Sequence[str], key: str) -> list[str]:
 def _with_labview_clock(
     header: Sequence[str], names: tuple[str, ...], cells: tuple[NDArray[Any], ...]
 ) -> tuple[tuple[str, ...], tuple[NDArray[Any], ...]]:
-    """The first column filled from begin and step, where LabVIEW was told to write no times."""
+    """The first column filled from begin and step, where LabVIEW was set to write no times."""
     told = [_labview(header, key) for key in (_BEGIN, _STEP)]
     begin, step = (number(words[0].replace(",", ".")) if words else None for words in told)
     if begin is None or step is None or not all(is_empty(cell) for cell in cells[0].tolist()):

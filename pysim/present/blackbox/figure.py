@@ -128,7 +128,7 @@ def _draw_residuals(axes: Axes, fit: TransferFunctionFit) -> None:
 
 
 def _draw_map(axes: Axes, fit: TransferFunctionFit) -> None:
-    """The plane of s in rad/s; roots far beyond the measured frequencies are told in words instead."""
+    """The plane of s in rad/s; roots far beyond the measured frequencies are described in words instead."""
     style.quiet(axes)
     axes.axhline(0, color=style.LIMIT, linewidth=0.8)
     axes.axvline(0, color=style.LIMIT, linewidth=0.8)

@@ -63,5 +63,5 @@ def test_times_are_in_the_unit_that_was_chosen(tmp_path: Path) -> None:
     np.savetxt(tmp_path / "a.txt", np.column_stack([1000 * TIME, TIME, TIME]), fmt="%.5f")
     columns = [column("time", "time", "ms"), column("u", "input", "V"), column("y", "output", "bar")]
     assert taken(tmp_path, columns, "other").records[0].data.time[-1] == pytest.approx(TIME[-1])
-    with pytest.raises(BadInput, match="time is not told in bar; choose s, ms"):
+    with pytest.raises(BadInput, match="time is not stated in bar; choose s, ms"):
         taken(tmp_path, [column("time", "time", "bar"), *columns[1:]], "other")

@@ -1,4 +1,4 @@
-"""The files that the scripts of docs/python.md read: logs of plants that have what their models lack, and noise."""
+"""The files that the scripts of docs/tutorials read: logs of plants that have what their models lack, and noise."""
 
 from collections.abc import Mapping
 from datetime import UTC, datetime, timedelta

@@ -1,4 +1,4 @@
-"""The five scripts of docs/python.md run as they stand there, and find what their plants have and their models lack."""
+"""The five scripts of docs/tutorials run as they stand there, and find what their plants have and their models lack."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -14,7 +14,9 @@ from tests.pysim.nouns.script_files import FRICTION, RIG_TRUE, STRENGTHS, TRUE
 from tests.test_docs import ROOT, blocks
 
 LONGEST = 15  # lines of a script that are not blank
-SCRIPTS = [source for words, _, source in blocks((ROOT / "docs" / "python.md").read_text("utf-8")) if words == "python"]
+LESSONS = ("first_minutes", "own_model", "other_fmu", "controller", "write_effect")
+PAGES = [(ROOT / "docs" / "tutorials" / f"{lesson}.md").read_text(encoding="utf-8") for lesson in LESSONS]
+SCRIPTS = [source for page in PAGES for words, _, source in blocks(page) if words == "python script"]
 Ran = dict[str, Any]
 
 

@@ -84,7 +84,7 @@ def test_a_run_that_was_stopped_says_so(fixture_model):
     with open_library(fixture_model(OSCILLATOR)) as library:
         record = run(library, long, Rk45(), lambda: next(looks))
     assert record.outcome is Outcome.STOPPED
-    assert record.message.startswith("the run was told to stop at ")
+    assert record.message.startswith("the run was asked to stop at ")
     assert 0 < len(record.time) < 3
 
 

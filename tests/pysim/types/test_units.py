@@ -1,13 +1,8 @@
 """Units and what they are in SI, against factors that were written down independently of ours."""
 
-import re
-from pathlib import Path
-
 import pytest
 
-from pysim.types import SI, SYNONYMS, UNITS, conversion, in_si
-
-PAGE = Path(__file__).parents[3] / "docs" / "data.md"
+from pysim.types import SI, UNITS, conversion, in_si
 
 # SI unit: its words, then each other unit with its words and how many SI units it is.
 # Source: Bureau International des Poids et Mesures, The International System of Units, 9th edition; inch, pound-force
@@ -90,12 +85,3 @@ def test_from_one_unit_to_another(source: str, target: str, factor: float, offse
 @pytest.mark.parametrize(("source", "target"), [("bar", "m"), ("%", "1"), ("Hz", "rad/s"), ("Pa", "furlong")])
 def test_units_of_different_quantities_have_nothing_in_common(source: str, target: str) -> None:
     assert conversion(source, target) is None
-
-
-def test_the_page_on_data_lists_every_unit() -> None:
-    section = re.search(r"^## Units\n(.*?)^## ", PAGE.read_text(encoding="utf-8"), re.DOTALL | re.MULTILINE)
-    assert section
-    rows = [line.split("|")[1:-1] for line in section[1].split("\n") if line.startswith("| `")]
-    listed = [[re.findall(r"`([^`]*)`", cell) for cell in row] for row in rows]
-    assert {unit: si for (si,), own, also in listed for unit in (*own, *also)} == {u: in_si(u)[0] for u in UNITS}
-    assert {unit for _, _, also in listed for unit in also} == set(SYNONYMS)

@@ -14,7 +14,7 @@ _FAILURES = ("unbalanced model", "types or sizes do not agree")
 
 
 def miscounted(message: str, source: ClassText, classes: Libraries) -> BuildError | None:
-    """The error at the declaration to blame; None where the message is of another kind, or none is found."""
+    """The error at the declaration that caused it; None where the message is of another kind, or none is found."""
     written = classes.full(source.full_name)
     if written is None or not message.startswith(_FAILURES):
         return None

@@ -46,7 +46,7 @@ def test_windows_are_centred_inside_and_shifted_at_the_ends() -> None:
     ("k", "words"),
     [
         (np.ones((1, 3, 3)), "widen the window"),
-        (np.ones((1, 5, 2)), "cannot be told apart"),
+        (np.ones((1, 5, 2)), "cannot be separated"),
         (np.zeros((1, 5, 2)), "no excitation"),
     ],
 )

@@ -1,0 +1,2 @@
+package Drive "Positioning drive: motor, spindle, carriage, cascaded control"
+end Drive;
