@@ -110,7 +110,7 @@ class Desk:
         await asyncio.gather(self.read_data(), self.read_model())
 
     async def example(self, name: str) -> None:
-        """Take an example into the project, read it and hold the model beside it; what fails is reported as `trouble`."""
+        """Take an example into the project, read it and hold the model beside it; `trouble` says what fails."""
         self.doing, self.trouble = f"Making the example {name}", ""
         self.changed()
         try:

@@ -113,6 +113,10 @@ class LearnSettings:
         0.1, unit="1", meaning="share of the avoidable sum of squares by which a law must do better than an effect to "
         "unseat it", source="measured: trial",
     )  # fmt: skip
+    sign_width: float = setting(
+        0.02, unit="1", meaning="width of a sign's change over its variable's root mean square",
+        source="chosen: of a sine one sample in a hundred lies within",
+    )  # fmt: skip
     most: int = setting(8, unit="1", meaning="laws that are refitted at most", source="measured: trial")
     heat: int = setting(
         4, unit="1", meaning="points that each of them is given, smoothness fitted in between", source="measured: trial"

@@ -279,6 +279,7 @@ class LearnedLaw:
         parameters: free numbers of the model, by name, refitted beside the law.
         test: against the model without it; None where it was not refitted to the end.
         held_out: rms over floor of the logs that may choose, without the law and with it; None where there are none.
+        sign_width: within which a sign in the factor changes, in its variable's unit.
     """
 
     slot: str
@@ -298,6 +299,7 @@ class LearnedLaw:
     parameters: Mapping[str, float] = field(default_factory=dict)
     test: GainTest | None = None
     held_out: tuple[float | None, float | None] = (None, None)
+    sign_width: float = 1.0
 
     def __post_init__(self) -> None:
         for name in ("knots", "coefficients", "covariance", "absorbed"):

@@ -148,6 +148,7 @@ def _learned(law: LearnedLaw) -> Json:
     return {
         "slot": law.slot,
         "factor": law.factor,
+        "sign_width": law.sign_width if law.factor.startswith("sign(") else None,
         "argument": law.argument,
         "range": law.knots[[0, -1]] if law.knots.size else None,
         "knots": law.knots,

@@ -74,8 +74,9 @@ def _law(law: Law, model: Model, knots: Array, values: Array) -> LearnedLaw:
     if factor and not law.is_sign:
         unit = quotient(unit, model[factor].unit or "1")
     empty = np.zeros((knots.size, knots.size))
+    argument_unit = model[argument].unit or "1"
     return LearnedLaw(
-        law.place.name, law.factor, argument, knots, values, empty, 0.0, model[argument].unit or "1", unit
+        law.place.name, law.factor, argument, knots, values, empty, 0.0, argument_unit, unit, sign_width=law.width
     )
 
 

@@ -17,7 +17,6 @@ from fmu_build.text.write import quoted
 from pysim.diagnosis.learn.curve import widths
 from pysim.diagnosis.learn.curve_text import CURVE, RAMP, SLOPE
 from pysim.diagnosis.learn.formula import REACH, Formula, rounded_up
-from pysim.diagnosis.learn.laws import SIGN_WIDTHS
 from pysim.effects import VENDOR, Filling, Slot, filling, parameter_text, slot_units
 from pysim.effects.law import check_units, dimension, dimension_words
 from pysim.types import BadInput, EffectParameter
@@ -152,7 +151,7 @@ class _Writer:
         return re.sub(r"\bbristle\((\w+), *([\d.e+-]+)\)", lambda found: self._bristle(found[1], found[2]), factor)
 
     def _smooth_sign(self, name: str) -> str:
-        return f"tanh({name}/{SIGN_WIDTHS.get(self._units.get(name) or '', 1e-3):g})"
+        return f"tanh({name}/{self._law.sign_width:g})"
 
     def _bristle(self, speed: str, length: str) -> str:
         if len([one for one in self._slot.gives if not one.endswith("_t")]) > 1:

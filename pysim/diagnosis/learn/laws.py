@@ -26,9 +26,6 @@ from pysim.types import Model
 
 Array = NDArray[np.float64]
 
-SIGN_WIDTHS = {"m/s": 1e-3, "rad/s": 0.1, "1/s": 0.05, "m": 1e-5, "rad": 1e-4, "Pa": 1e4, "m3/s": 1e-7}
-"""Width of a sign's change by its variable's unit; those of speeds are the catalogue's frictions'. 1e-3 for others."""
-
 
 class Term(Protocol):
     """What can be compiled beside a model."""
@@ -75,14 +72,12 @@ class Place:
         key: what its parameters' names begin with.
         sides: that share one law.
         outside: other variables of the model that it may depend on.
-        signs: width of the sign's change of each variable of its own.
     """
 
     name: str
     key: str
     sides: tuple[Side, ...]
     outside: tuple[str, ...]
-    signs: tuple[float, ...]
 
     @property
     def arguments(self) -> tuple[str, ...]:
@@ -115,12 +110,14 @@ class Law:
         chosen: number of its argument among the place's.
         by: number of its factor among the variables of the place's own; None for the factor 1.
         is_sign: whether the sign of that is the factor.
+        width: within which the sign changes, in the variable's unit.
     """
 
     place: Place
     chosen: int
     by: int | None = None
     is_sign: bool = False
+    width: float = 1.0
 
     @property
     def argument(self) -> str:
@@ -154,6 +151,7 @@ class Law:
         for i in range(len(self.place.sides[0].own)):
             found[f"{key}_b{i}"] = float(i == self.by and not self.is_sign)
             found[f"{key}_s{i}"] = float(i == self.by and self.is_sign)
+            found[f"{key}_d{i}"] = self.width
         for i, (k, w) in enumerate(zip(knots.tolist(), wide.tolist(), strict=True), start=1):
             found[f"{key}_k{i}"], found[f"{key}_w{i}"] = k, w
         return found
@@ -194,8 +192,9 @@ class Terms:
             declared += [f"  parameter Real {key}_w{i} = 0.25;" for i in numbers]
             declared += [f"  parameter Real {key}_a{i} = 0;" for i in range(len(place.arguments))]
             declared += [f"  parameter Real {key}_b = 0;", f"  parameter Real {key}_u = 1;"]
-            for i in range(len(place.signs)):
-                declared += [f"  parameter Real {key}_b{i} = 0;", f"  parameter Real {key}_s{i} = 0;"]
+            for i in range(len(place.sides[0].own)):
+                declared += [f"  parameter Real {key}_{weight}{i} = 0;" for weight in "bs"]
+                declared += [f"  parameter Real {key}_d{i} = 1;"]
             for n, side in enumerate(place.sides, start=1):
                 declared += [f"  Real {key}_z{n};", f"  Real {key}_h{n};", f"  Real {key}_y{n};"]
                 seen = (*side.own, *place.outside)
@@ -204,8 +203,8 @@ class Terms:
                 equations.append(f"  {key}_h{n} = {key}_u*({_curve(key, f'{key}_z{n}', self.count)});")
                 factors = [f"{key}_b"]
                 if not side.output_rate:
-                    for i, (name, width) in enumerate(zip(side.own, place.signs, strict=True)):
-                        factors += [f"{key}_b{i}*{name}", f"{key}_s{i}*tanh({name}/{width!r})"]
+                    for i, name in enumerate(side.own):
+                        factors += [f"{key}_b{i}*{name}", f"{key}_s{i}*tanh({name}/{key}_d{i})"]
                 equations.append(f"  {key}_y{n} = ({' + '.join(factors)})*{key}_h{n};")
                 if side.output_rate:
                     declared.append(f"  Real {key}_r{n};")
@@ -245,7 +244,7 @@ def places(slots: Sequence[Slot], model: Model) -> tuple[Place, ...]:
         sides = _sides(slot, known, set(model.abilities.states))
         if sides and sides[0].own:
             outside = () if sides[0].output_rate else _outside(slots, model, sides)
-            found.append(Place(slot.name, f"law{number}", sides, outside, _signs(sides[0].own, model)))
+            found.append(Place(slot.name, f"law{number}", sides, outside))
     return tuple(found)
 
 
@@ -255,7 +254,7 @@ def _of_state(k: int, model: Model) -> Place:
     others = [name for name in model.abilities.states if depends is None or name in depends] or [state]
     own = tuple(others)
     side = Side(state, "", own, ("",) * len(own))
-    return Place(f"der({state})", f"law{k + 1}", (side,), _inputs(model), _signs(own, model))
+    return Place(f"der({state})", f"law{k + 1}", (side,), _inputs(model))
 
 
 def _outside(slots: Sequence[Slot], model: Model, sides: Sequence[Side]) -> tuple[str, ...]:
@@ -270,10 +269,6 @@ def _inputs(model: Model) -> tuple[str, ...]:
     """Without those that are rates of others."""
     names = [v.name for v in model.variables if v.causality == "input"]
     return tuple(name for name in names if not _rate_of(name, names))
-
-
-def _signs(own: Sequence[str], model: Model) -> tuple[float, ...]:
-    return tuple(SIGN_WIDTHS.get(model[name].unit, 1e-3) for name in own)
 
 
 def _sides(slot: Slot, known: set[str], states: set[str]) -> tuple[Side, ...]:
@@ -330,5 +325,5 @@ def samples(law: Law, seen: Mapping[str, Array]) -> tuple[Array, Array]:
         argument, factor = law.seen(side)
         z.append(seen[argument])
         value = seen[factor] if factor else np.ones(z[-1].size)
-        by.append(np.tanh(value / law.place.signs[law.by]) if law.is_sign and law.by is not None else value)
+        by.append(np.tanh(value / law.width) if law.is_sign else value)
     return np.concatenate(z), np.concatenate(by)

@@ -16,6 +16,7 @@ from pysim.diagnosis.learn.basis import Curve, knots, solve
 from pysim.diagnosis.learn.laws import Law, Place, samples
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.settings import LearnSettings
 from pysim.identify.greybox import Problem, Simulation
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import beside
@@ -167,6 +168,10 @@ def distinct(places: Sequence[Place], signals: Mapping[str, Array]) -> list[Law]
         shapes = [_scaled(samples(Law(place, i), signals)[0]) for i in range(len(place.arguments))]
         first = [next(j for j, other in enumerate(shapes) if _alike(one, other)) for one in shapes]
         for law in place.laws():
+            if law.is_sign:
+                own = samples(replace(law, is_sign=False), signals)[1]
+                width = LearnSettings().sign_width * float(np.sqrt(np.mean(own**2)))
+                law = replace(law, width=float(f"{width:.2g}") or 1.0)
             by = samples(law, signals)[1]
             if first[law.chosen] != law.chosen or not np.ptp(shapes[law.chosen]) > 0 or law.by == law.chosen:
                 continue

@@ -82,7 +82,9 @@ class Context:
             return None
         times = self.longest * np.geomspace(_EARLIEST, 1.0, _LOOKS)
         alone = Experiment(times, names, overrides=self.overrides, offset=np.zeros(count))
-        return sensitivities_many(self.model, [alone], (), offset=True, solver=Esdirk(1e-5, 1e-5, 1e-3), workers=1)[0]
+        return sensitivities_many(
+            self.model, [alone], (), offset=True, solver=Esdirk(1e-5, 1e-5, derivative_tol=1e-3), workers=1
+        )[0]
 
     @property
     def still(self) -> bool:

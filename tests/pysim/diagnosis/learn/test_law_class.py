@@ -167,9 +167,9 @@ def test_an_argument_from_elsewhere_is_bound_beside_another_effect(lab: tuple[Pa
       annotation(__HydraulicTestBench(pair="force")); end Both;"""
     (tmp_path / "Both.mo").write_text(pair)
     wider = (*lab, tmp_path / "Rub.mo", tmp_path / "Both.mo")
-    law = learned("force", "sign(v)", "warm", 15.0, "K", "N", 1.0)
+    law = replace(learned("force", "sign(v)", "warm", 15.0, "K", "N", 1.0), sign_width=2e-3)
     model = with_law(wider, "Mass", law, effects=read_catalogue(tmp_path / "Rub.mo"))
-    right = mass(lambda t, x, v, warm: curve(law, warm) * math.tanh(v / 1e-3) - 4 * v)
+    right = mass(lambda t, x, v, warm: curve(law, warm) * math.tanh(v / 2e-3) - 4 * v)
     assert run_of(model, **{"force.first.d": 4.0}) == pytest.approx(right, abs=1e-5)
 
 

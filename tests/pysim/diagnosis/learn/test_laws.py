@@ -7,6 +7,7 @@ from scipy.integrate import solve_ivp
 from pysim.diagnosis.learn.curve import curve_basis
 from pysim.diagnosis.learn.described import quotient
 from pysim.diagnosis.learn.laws import Law, Terms, places
+from pysim.diagnosis.learn.screening import distinct
 from pysim.effects import Slot
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Signal
@@ -32,12 +33,25 @@ def test_a_slot_whose_variables_the_model_does_not_have_is_no_place() -> None:
     assert not places([slot], variants("axis").build(())[0])
 
 
-@pytest.mark.parametrize("factor", [None, 1])
-def test_the_compiled_term_is_the_curve_times_its_factor(factor: int | None) -> None:
+@pytest.mark.parametrize("scale", [1.0, 1000.0])
+def test_a_sign_changes_within_a_share_of_what_its_variable_does(scale: float) -> None:
+    """In meters as in millimeters, on a large machine as on a small one."""
+    own = variants("mass")
+    where = places(own.slots, own.build(())[0])
+    names = {name for place in where for side in place.sides for name in (*side.own, *place.outside)}
+    t = np.linspace(0, 20, 2001)
+    signals = {name: scale * np.sin((1 + 0.37 * k) * t) for k, name in enumerate(sorted(names))}
+    widths = {law.width for law in distinct(where, signals) if law.is_sign}
+    assert widths
+    assert all(width == pytest.approx(0.02 * scale * np.sqrt(0.5), rel=0.05) for width in widths)
+
+
+@pytest.mark.parametrize(("factor", "is_sign"), [(None, False), (1, False), (1, True)])
+def test_the_compiled_term_is_the_curve_times_its_factor(factor: int | None, is_sign: bool) -> None:
     own, c = variants("mass"), np.array([0.4, -0.5, 0.3, 0.0, -1.0])
     (place,) = places(own.slots, own.build(())[0])
     model = own.probed((), Terms((place,), KNOTS.size))
-    law = Law(place, 0, factor)
+    law = Law(place, 0, factor, is_sign, 0.05)
     values = dict(zip(place.coefficients(KNOTS.size), (c / 2).tolist(), strict=True))
     times = np.linspace(0, 4, 81)
     run = Experiment(times, ("x",), {"F": Signal.constant(6.0)})
@@ -45,7 +59,8 @@ def test_the_compiled_term_is_the_curve_times_its_factor(factor: int | None) -> 
     found = simulate(model, run, solver=Rodas(1e-8, 1e-8))["x"]
 
     def slope(t: float, s: np.ndarray) -> list[float]:
-        term = float(curve_basis(s[:1], KNOTS)[0] @ c) * (1.0 if factor is None else float(s[1]))
+        by = 1.0 if factor is None else float(np.tanh(s[1] / 0.05)) if is_sign else float(s[1])
+        term = float(curve_basis(s[:1], KNOTS)[0] @ c) * by
         return [float(s[1]), 6 - 2 * s[1] - 40 * s[0] + term]
 
     truth = solve_ivp(slope, (0, 4), [0.0, 0.0], t_eval=times, rtol=1e-8, atol=1e-10).y[0]
