@@ -77,12 +77,12 @@ class Parser(argparse.ArgumentParser):
 
 
 class _Version(argparse.Action):
-    """Print the version of the installed package."""
+    """Print the version, of the clone or of the installed package."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        from importlib.metadata import version
+        from fmu_build.version import version
 
-        print(f"pysim {version('hydraulic-test-bench')}")
+        print(f"pysim {version()}")
         parser.exit()
 
 
