@@ -49,6 +49,8 @@ GROUPS = {  # extras of the package, and dependency groups of the clone, in pypr
     "types": EXTRAS | {"test", "lint", "bundle"},
     "bundle": {"bundle"},
 }
+WINDOWS = os.name == "nt"
+ROOM = 95  # characters of this folder's path; the packages' own come to 163 more, and Windows takes 259 as it comes
 PLATFORMS = {  # of another PC: its name for uv, and the endings of wheels that run there
     "win_amd64": ("x86_64-pc-windows-msvc", ["win_amd64"]),
     "linux_x86_64": (
@@ -294,6 +296,12 @@ def reason(error: Exception) -> str:
     """Why there is no new environment, and what to do."""
     if isinstance(error, OSError):
         return f"run.py: {ENVIRONMENT} cannot be renewed ({error}); close what runs in it and try again."
+    if WINDOWS and len(str(ROOT)) > ROOM:
+        return (
+            f"run.py: could not install the packages, see the messages above. The path of this folder has "
+            f"{len(str(ROOT))} characters, and above {ROOM} some packages do not fit into the 259 that Windows takes: "
+            "move the folder, for example to C:\\bench, or turn on long paths in Windows."
+        )
     if "venv" in getattr(error, "cmd", ()):
         return "run.py: could not create the environment; on Debian and Ubuntu: apt install python3-venv."
     return (

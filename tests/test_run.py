@@ -283,6 +283,16 @@ def test_wheels_beside_it_come_first(
     assert "wheels/ does not hold every package" in capsys.readouterr().err
 
 
+def test_windows_is_told_when_the_folder_lies_too_deep(
+    script: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(script, "WINDOWS", True)
+    monkeypatch.setattr(script, "ROOT", Path("C:/") / ("a" * 117))
+    assert "has 120 characters, and above 95 some packages do not fit" in script.reason(no_index())
+    monkeypatch.setattr(script, "ROOT", Path("C:/bench"))
+    assert "is the package index reachable" in script.reason(no_index())
+
+
 BACKEND = """
 import os
 import zipfile
