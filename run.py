@@ -198,7 +198,7 @@ def bundle(words: Sequence[str]) -> int:
     said = project()
     extras, wanted = requirements(given.names)
     prepare({"bundle"})
-    wanted += [*said["project"].get("dependencies", ()), *said["build-system"]["requires"], "editables", "pip"]
+    wanted += [*said["project"].get("dependencies", ()), *said["build-system"]["requires"], "editables"]
     wanted += [one for extra in extras for one in said["project"]["optional-dependencies"][extra]]
     folder = ROOT / "build" / "wheels"
     shutil.rmtree(folder, ignore_errors=True)

@@ -211,7 +211,7 @@ def index(script: ModuleType, monkeypatch: pytest.MonkeyPatch) -> Path:
     folder = script.ROOT / "index"
     folder.mkdir()
     wheel_of(folder, "needed", needs=("for_windows; sys_platform == 'win32'", "for_linux; sys_platform == 'linux'"))
-    for name in ("for_windows", "for_linux", "server", "tables", "hatchling", "editables", "pip", "unasked"):
+    for name in ("for_windows", "for_linux", "server", "tables", "hatchling", "editables", "unasked"):
         wheel_of(folder, name)
     for python in ("cp311", "cp312"):
         for system in ("win_amd64", "manylinux2014_x86_64"):
@@ -233,7 +233,7 @@ def index(script: ModuleType, monkeypatch: pytest.MonkeyPatch) -> Path:
     return folder
 
 
-ALWAYS = {"needed-2-py3-none-any", "editables-2-py3-none-any", "pip-2-py3-none-any", "tiny-1-py3-none-any"}
+ALWAYS = {"needed-2-py3-none-any", "editables-2-py3-none-any", "tiny-1-py3-none-any"}
 
 
 def bundled(script: ModuleType, *words: str) -> set[str]:
