@@ -319,6 +319,8 @@ def surroundings() -> dict[str, str]:
 def main() -> int:
     if sys.version_info < (3, 11):  # noqa: UP036 - this file meets the system's Python before any package does
         sys.exit(f"run.py: needs Python 3.11 or later, this is {sys.version.split()[0]}.")
+    for stream in (sys.stdout, sys.stderr):  # a pipe on Windows knows Latin letters only, and folders may have others
+        stream.reconfigure(errors="replace")  # type: ignore[union-attr]
     known = [*COMMANDS, *CHECKS, "bundle"]
     if len(sys.argv) < 2 or sys.argv[1] not in known:
         sys.exit(f"usage: python3 run.py {{{','.join(known)}}} [arguments]\n\n{__doc__}")

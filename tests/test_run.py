@@ -347,3 +347,11 @@ def test_a_machine_without_a_network_is_set_up_from_wheels(script: ModuleType) -
     again = python("import needed; print(needed.VALUE)")
     assert (again.returncode, again.stdout.strip()) == (0, "42"), again.stderr
     assert "continuing with the previous environment" in again.stderr
+
+
+def test_a_name_with_letters_that_the_console_lacks_stops_nothing(tmp_path: Path) -> None:
+    (tmp_path / "run.py").write_text(SCRIPT.read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "pyproject.toml").write_text(WITH_GROUPS)
+    words = [sys.executable, str(tmp_path / "run.py"), "bundle", "x\N{GREEK SMALL LETTER PI}"]
+    done = subprocess.run(words, capture_output=True, env={**os.environ, "PYTHONIOENCODING": "latin-1"})
+    assert b"no extra and no dependency group x?" in done.stderr
