@@ -118,10 +118,8 @@ def _guarded(args: argparse.Namespace) -> int:
             print(f"pysim {args.command}: {error}", file=sys.stderr)
             return code
         traceback.print_exc()
-        print(
-            f"pysim {args.command}: this is our mistake, please report the lines above, with those of `pysim report-bug`",
-            file=sys.stderr,
-        )
+        said = "this is our mistake, please report the lines above, with those of `pysim report-bug`"
+        print(f"pysim {args.command}: {said}", file=sys.stderr)
         return OUR_BUG
 
 
