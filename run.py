@@ -4,8 +4,12 @@ Needs Python 3.11 or later and nothing else. The first run downloads the package
 pyproject.toml names them; a later command adds what it needs beside them, once. Packages in a folder wheels/ beside
 this file are taken from there. What follows the command is passed on to it; `python3 run.py python FILE.py` runs a
 program of your own in the environment.
+
+`python3 run.py bundle` fills wheels/ for a PC without a network, of this system or of another:
+`python3 run.py bundle --platform win_amd64 --python 3.12`. Copy the whole folder there.
 """
 
+import argparse
 import hashlib
 import os
 import queue
@@ -16,6 +20,7 @@ import threading
 import time
 from collections.abc import Iterable, Sequence
 from pathlib import Path
+from typing import Any
 
 ROOT = Path(__file__).resolve().parent
 ENVIRONMENT = ROOT / ".venv"
@@ -37,12 +42,23 @@ CHECKS = {  # run beside this file; the others where they were called
     "types": ["-m", "mypy"],
     "docs": ["-m", "sphinx", "-W", "--keep-going", "docs", "build/docs"],
 }
-GROUPS = {  # optional dependencies in pyproject.toml that a command needs
-    "test": {"test"},
-    "validate": {"test"},
+EXTRAS = {"app", "data", "notebook", "openmodelica"}  # whose packages the tests and the type checker look at
+GROUPS = {  # extras of the package, and dependency groups of the clone, in pyproject.toml that a command needs
+    "test": EXTRAS | {"test", "bundle"},
+    "validate": EXTRAS | {"test"},
     "lint": {"lint"},
-    "types": {"test", "lint"},
+    "types": EXTRAS | {"test", "lint", "bundle"},
     "docs": {"docs", "data"},
+    "bundle": {"bundle"},
+}
+WINDOWS = os.name == "nt"
+ROOM = 95  # characters of this folder's path; the packages' own come to 163 more, and Windows takes 259 as it comes
+PLATFORMS = {  # of another PC: its name for uv, and the endings of wheels that run there
+    "win_amd64": ("x86_64-pc-windows-msvc", ["win_amd64"]),
+    "linux_x86_64": (
+        "x86_64-manylinux_2_28",
+        ["manylinux_2_28_x86_64", "manylinux_2_27_x86_64", "manylinux2014_x86_64"],
+    ),
 }
 
 
@@ -127,7 +143,8 @@ def install(groups: Iterable[str]) -> None:
 
     Bytecode is made when a module is first imported: most of what is installed never is.
     """
-    names = ",".join(sorted(groups))
+    extras, others = requirements(groups)
+    names = ",".join(extras)
     words = [
         "install",
         "--no-compile",
@@ -135,6 +152,7 @@ def install(groups: Iterable[str]) -> None:
         "off",
         "--editable",
         f"{ROOT}[{names}]" if names else str(ROOT),
+        *others,
     ]
     if WHEELS.is_dir():
         words += ["--find-links", str(WHEELS)]
@@ -144,6 +162,67 @@ def install(groups: Iterable[str]) -> None:
     code = pip(words)
     if code:
         raise subprocess.CalledProcessError(code, "pip")
+
+
+def project() -> dict[str, Any]:
+    """What pyproject.toml says."""
+    import tomllib  # not in the Python that `main` refuses
+
+    return tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+
+
+def requirements(names: Iterable[str]) -> tuple[list[str], list[str]]:
+    """Which of the names are extras, and the requirements of the others, which are dependency groups (PEP 735).
+
+    Groups are read here, since the pip of a new environment knows them from 25.1 on only.
+    """
+    said, wanted = project(), set(names)
+    groups = said.get("dependency-groups", {})
+    extras = sorted(wanted & set(said["project"].get("optional-dependencies", {})))
+    unknown = wanted - set(extras) - set(groups)
+    if unknown:
+        sys.exit(f"run.py: pyproject.toml has no extra and no dependency group {', '.join(sorted(unknown))}.")
+    return extras, [one for name in sorted(wanted - set(extras)) for one in groups[name]]
+
+
+def bundle(words: Sequence[str]) -> int:
+    """Fill wheels/ with all packages that a PC without a network needs, for its system and its Python."""
+    parser = argparse.ArgumentParser(prog="run.py bundle", description=bundle.__doc__)
+    everything = sorted({"app"}.union(*GROUPS.values()) - {"bundle"})
+    about = (
+        f"extras and groups of pyproject.toml; by default all that a command of run.py needs: {' '.join(everything)}"
+    )
+    parser.add_argument("names", nargs="*", default=everything, metavar="NAME", help=about)
+    parser.add_argument("--platform", choices=sorted(PLATFORMS), help="system of the other PC (that of this one)")
+    here = f"{sys.version_info.major}.{sys.version_info.minor}"
+    parser.add_argument("--python", default=here, metavar="3.12", help=f"Python of the other PC ({here}, as here)")
+    given = parser.parse_args(words)
+    said = project()
+    extras, wanted = requirements(given.names)
+    prepare({"bundle"})
+    wanted += [*said["project"].get("dependencies", ()), *said["build-system"]["requires"], "editables"]
+    wanted += [one for extra in extras for one in said["project"]["optional-dependencies"][extra]]
+    folder = ROOT / "build" / "wheels"
+    shutil.rmtree(folder, ignore_errors=True)
+    folder.mkdir(parents=True)
+    target, tags = PLATFORMS.get(given.platform, ("", []))
+    (folder / "wanted.txt").write_text("\n".join(wanted) + "\n", encoding="utf-8")
+    # uv decides what is needed on the other system; pip, which decides by this one, only fetches it.
+    resolve = [str(PYTHON), "-m", "uv", "pip", "compile", "--quiet", "--no-header", "--no-annotate"]
+    resolve += ["--python-version", given.python, *(["--python-platform", target] if target else [])]
+    resolve += [str(folder / "wanted.txt"), "--output-file", str(folder / "needed.txt")]
+    fetch = ["download", "--no-deps", "--only-binary=:all:", "--dest", str(folder), "--python-version", given.python]
+    fetch += [word for tag in tags for word in ("--platform", tag)]
+    own = ["wheel", "--no-deps", "--wheel-dir", str(folder), str(ROOT)]
+    if subprocess.run(resolve).returncode or pip([*fetch, "-r", str(folder / "needed.txt")]) or pip(own):
+        sys.exit("run.py: not every package could be had for that system and Python, see the messages above.")
+    for list_of_names in folder.glob("*.txt"):
+        list_of_names.unlink()
+    shutil.rmtree(WHEELS, ignore_errors=True)
+    folder.rename(WHEELS)
+    sizes = [file.stat().st_size for file in WHEELS.iterdir()]
+    print(f"{WHEELS}: {len(sizes)} wheels, {sum(sizes) / 1e6:.0f} MB. Copy this whole folder to the other PC.")
+    return 0
 
 
 def pip(words: Sequence[str]) -> int:
@@ -219,6 +298,12 @@ def reason(error: Exception) -> str:
     """Why there is no new environment, and what to do."""
     if isinstance(error, OSError):
         return f"run.py: {ENVIRONMENT} cannot be renewed ({error}); close what runs in it and try again."
+    if WINDOWS and len(str(ROOT)) > ROOM:
+        return (
+            f"run.py: could not install the packages, see the messages above. The path of this folder has "
+            f"{len(str(ROOT))} characters, and above {ROOM} some packages do not fit into the 259 that Windows takes: "
+            "move the folder, for example to C:\\bench, or turn on long paths in Windows."
+        )
     if "venv" in getattr(error, "cmd", ()):
         return "run.py: could not create the environment; on Debian and Ubuntu: apt install python3-venv."
     return (
@@ -236,12 +321,16 @@ def surroundings() -> dict[str, str]:
 def main() -> int:
     if sys.version_info < (3, 11):  # noqa: UP036 - this file meets the system's Python before any package does
         sys.exit(f"run.py: needs Python 3.11 or later, this is {sys.version.split()[0]}.")
-    known = COMMANDS | CHECKS
+    for stream in (sys.stdout, sys.stderr):  # a pipe on Windows knows Latin letters only, and folders may have others
+        stream.reconfigure(errors="replace")  # type: ignore[union-attr]
+    known = [*COMMANDS, *CHECKS, "bundle"]
     if len(sys.argv) < 2 or sys.argv[1] not in known:
         sys.exit(f"usage: python3 run.py {{{','.join(known)}}} [arguments]\n\n{__doc__}")
+    if sys.argv[1] == "bundle":
+        return bundle(sys.argv[2:])
     prepare(groups_of(sys.argv[1:]))
     folder = ROOT if sys.argv[1] in CHECKS else None
-    words = [str(PYTHON), *known[sys.argv[1]], *sys.argv[2:]]
+    words = [str(PYTHON), *(COMMANDS | CHECKS)[sys.argv[1]], *sys.argv[2:]]
     return subprocess.run(words, cwd=folder, env=surroundings()).returncode
 
 

@@ -3,7 +3,6 @@
 import importlib.util
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
-from importlib.resources import files
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeVar
 
@@ -11,11 +10,11 @@ from fmu_build.cache import cached, content_key, copy_whole, store
 from fmu_build.errors import BuildError, CannotCompile, Underdetermined, WrongCall
 from fmu_build.pack import Platform, check_writable, host_platform, select_platforms
 from fmu_build.scratch import scratch
+from fmu_build.text.libraries import bundled_library
 
 if TYPE_CHECKING:
     from fmu_build.lower import OdeModel
 
-BUNDLED_LIBRARY = "HydraulicTestBench"
 COMPILERS = ("rumoca", "openmodelica")
 _NOTHING: Mapping[str, float | str] = {}
 _READINGS = 3  # of files that are saved while they are read
@@ -90,11 +89,6 @@ def build(
     except OSError as error:
         raise BuildError(f"cannot write {target}: {error.strerror or error}; choose another place.") from error
     return target
-
-
-def bundled_library() -> Path:
-    """The folder of our Modelica library: in a checkout beside this package, else installed with it."""
-    return Path(str(files("modelica").joinpath(BUNDLED_LIBRARY)))
 
 
 def _build_anew(

@@ -91,7 +91,7 @@ def imported(nodes: Iterable[ast.AST]) -> Iterator[str]:
 
 def package_of(name: str) -> str:
     words = name.split(".")
-    has_parts = words[0] == "pysim" or words[:2] == ["fmu_build", "text"]
+    has_parts = words[0] == "pysim" or words[:2] in (["fmu_build", "text"], ["fmu_build", "version"])
     return ".".join(words[:2]) if has_parts and len(words) > 1 else words[0]
 
 

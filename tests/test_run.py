@@ -93,7 +93,8 @@ def test_each_command_installs_what_it_needs_once(script: ModuleType, monkeypatc
         ["demo"],
     ):
         script.prepare(script.groups_of(words))
-    assert asked == [set(), {"app"}, {"app", "test"}, {"app", "test", "lint"}]
+    tests = {"app", "data", "notebook", "openmodelica", "test", "bundle"}
+    assert asked == [set(), {"app"}, tests, tests | {"lint"}]
     (script.ROOT / "pyproject.toml").write_text("two")
     script.prepare(script.groups_of(["demo"]))
     assert asked[4:] == [set()]
@@ -166,22 +167,130 @@ def test_what_runs_in_it_keeps_it_from_being_renewed(
     assert script.PYTHON.read_text() == "old"
 
 
+WITH_GROUPS = """
+[project]
+dependencies = ["needed"]
+optional-dependencies = { app = ["server"], data = ["tables"] }
+[dependency-groups]
+test = ["pytest>=8.0", "xdist"]
+"""
+
+
+def test_a_name_that_is_neither_extra_nor_group_is_refused(script: ModuleType) -> None:
+    (script.ROOT / "pyproject.toml").write_text(WITH_GROUPS)
+    with pytest.raises(SystemExit, match=r"no extra and no dependency group apps, tests"):
+        script.requirements(["apps", "data", "tests"])
+
+
+def test_every_group_that_a_command_needs_is_there() -> None:
+    """Of the script and the pyproject.toml of this clone."""
+    spec = importlib.util.spec_from_file_location("run_itself", SCRIPT)
+    assert spec is not None
+    assert spec.loader is not None
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    for command, names in module.GROUPS.items():
+        extras, others = module.requirements(names)  # ends where one is neither
+        assert len(extras) + len(others) >= len(names), command
+
+
+def wheel_of(folder: Path, name: str, tag: str = "py3-none-any", needs: tuple[str, ...] = ()) -> None:
+    """A package with one module, which says what it needs."""
+    with zipfile.ZipFile(folder / f"{name}-2-{tag}.whl", "w") as wheel:
+        about = ["Metadata-Version: 2.1", f"Name: {name}", "Version: 2", *(f"Requires-Dist: {need}" for need in needs)]
+        wheel.writestr(f"{name}.py", "VALUE = 42")
+        wheel.writestr(f"{name}-2.dist-info/METADATA", "\n".join(about) + "\n")
+        wheel.writestr(f"{name}-2.dist-info/WHEEL", f"Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: {tag}\n")
+        wheel.writestr(f"{name}-2.dist-info/RECORD", "")
+
+
+@pytest.fixture
+def index(script: ModuleType, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """What stands for the package index: packages that need others on one system only, and binaries for some."""
+    pytest.importorskip("uv")
+    folder = script.ROOT / "index"
+    folder.mkdir()
+    wheel_of(folder, "needed", needs=("for_windows; sys_platform == 'win32'", "for_linux; sys_platform == 'linux'"))
+    for name in ("for_windows", "for_linux", "server", "tables", "hatchling", "editables", "unasked"):
+        wheel_of(folder, name)
+    for python in ("cp311", "cp312"):
+        for system in ("win_amd64", "manylinux2014_x86_64"):
+            wheel_of(folder, "for_windows" if system == "win_amd64" else "binary", f"{python}-{python}-{system}")
+    (script.ROOT / "backend.py").write_text(BACKEND)
+    (script.ROOT / "pysim").mkdir()
+    (script.ROOT / "pyproject.toml").write_text(
+        PROJECT + 'dependencies = ["needed"]\noptional-dependencies = { app = ["server"] }\n[dependency-groups]\n'
+        'bundle = []\ntest = ["tables", "binary; sys_platform == \'linux\'"]\n'
+    )
+    monkeypatch.setenv("PIP_NO_INDEX", "1")
+    (script.ROOT / "nothing").mkdir()
+    monkeypatch.setenv("UV_DEFAULT_INDEX", (script.ROOT / "nothing").as_uri())
+    monkeypatch.setenv("UV_OFFLINE", "1")
+    monkeypatch.setenv("PIP_FIND_LINKS", str(folder))
+    monkeypatch.setenv("UV_FIND_LINKS", str(folder))
+    monkeypatch.setattr(script, "PYTHON", Path(sys.executable))
+    monkeypatch.setattr(script, "prepare", lambda groups: None)
+    return folder
+
+
+ALWAYS = {"needed-2-py3-none-any", "editables-2-py3-none-any", "tiny-1-py3-none-any"}
+
+
+def bundled(script: ModuleType, *words: str) -> set[str]:
+    assert script.bundle(words) == 0
+    return {file.stem for file in script.WHEELS.iterdir()}
+
+
+@pytest.mark.usefixtures("index")
+def test_a_bundle_for_another_system_holds_what_is_needed_there(script: ModuleType) -> None:
+    script.WHEELS.mkdir()
+    (script.WHEELS / "of-an-earlier-one.whl").write_text("")
+    found = bundled(script, "app", "test", "--platform", "win_amd64", "--python", "3.12")
+    assert found == ALWAYS | {f"{n}-2-py3-none-any" for n in ("server", "tables")} | {
+        "for_windows-2-cp312-cp312-win_amd64"
+    }
+    found = bundled(script, "test", "--platform", "linux_x86_64", "--python", "3.11")
+    binary = "binary-2-cp311-cp311-manylinux2014_x86_64"
+    assert found == ALWAYS | {f"{n}-2-py3-none-any" for n in ("tables", "for_linux")} | {binary}
+
+
+def test_a_bundle_that_cannot_be_whole_leaves_the_one_of_before(script: ModuleType, index: Path) -> None:
+    script.WHEELS.mkdir()
+    (script.WHEELS / "of-an-earlier-one.whl").write_text("")
+    (index / "tables-2-py3-none-any.whl").unlink()
+    with pytest.raises(SystemExit, match="not every package could be had for that system and Python"):
+        script.bundle(["test", "--platform", "win_amd64", "--python", "3.12"])
+    assert [file.name for file in script.WHEELS.iterdir()] == ["of-an-earlier-one.whl"]
+
+
 def test_wheels_beside_it_come_first(
     script: ModuleType, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     script.WHEELS.mkdir()
+    (script.ROOT / "pyproject.toml").write_text(WITH_GROUPS)
     asked: list[list[str]] = []
     monkeypatch.setattr(script, "pip", lambda words: asked.append(words) or 0)
-    script.install({"test"})
+    script.install({"app", "data", "test"})
     (words,) = asked
     assert "--no-index" in words
     assert words[words.index("--find-links") + 1] == str(script.WHEELS)
-    assert words[words.index("--editable") + 1] == f"{script.ROOT}[test]"
+    assert words[words.index("--editable") + 1] == f"{script.ROOT}[app,data]"
+    assert {"pytest>=8.0", "xdist"} <= set(words)  # no pip has to know dependency groups
     asked.clear()
     monkeypatch.setattr(script, "pip", lambda words: asked.append(words) or int("--no-index" in words))
     script.install(set())
     assert ["--no-index" in words for words in asked] == [True, False]
     assert "wheels/ does not hold every package" in capsys.readouterr().err
+
+
+def test_windows_is_told_when_the_folder_lies_too_deep(
+    script: ModuleType, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    monkeypatch.setattr(script, "WINDOWS", True)
+    monkeypatch.setattr(script, "ROOT", Path("C:/") / ("a" * 117))
+    assert "has 120 characters, and above 95 some packages do not fit" in script.reason(no_index())
+    monkeypatch.setattr(script, "ROOT", Path("C:/bench"))
+    assert "is the package index reachable" in script.reason(no_index())
 
 
 BACKEND = """
@@ -230,11 +339,7 @@ def test_a_machine_without_a_network_is_set_up_from_wheels(script: ModuleType) -
     assert failed.returncode == 1
     assert "is the package index reachable? Without a network they can come from a folder wheels/" in failed.stderr
     script.WHEELS.mkdir()
-    with zipfile.ZipFile(script.WHEELS / "needed-2-py3-none-any.whl", "w") as wheel:
-        wheel.writestr("needed.py", "VALUE = 42")
-        wheel.writestr("needed-2.dist-info/METADATA", "Metadata-Version: 2.1\nName: needed\nVersion: 2\n")
-        wheel.writestr("needed-2.dist-info/WHEEL", "Wheel-Version: 1.0\nRoot-Is-Purelib: true\nTag: py3-none-any\n")
-        wheel.writestr("needed-2.dist-info/RECORD", "")
+    wheel_of(script.WHEELS, "needed")
     done = python("import needed; print(needed.VALUE)")
     assert (done.returncode, done.stdout.strip()) == (0, "42"), done.stderr
     (script.WHEELS / "needed-2-py3-none-any.whl").unlink()
@@ -242,3 +347,11 @@ def test_a_machine_without_a_network_is_set_up_from_wheels(script: ModuleType) -
     again = python("import needed; print(needed.VALUE)")
     assert (again.returncode, again.stdout.strip()) == (0, "42"), again.stderr
     assert "continuing with the previous environment" in again.stderr
+
+
+def test_a_name_with_letters_that_the_console_lacks_stops_nothing(tmp_path: Path) -> None:
+    (tmp_path / "run.py").write_text(SCRIPT.read_text(encoding="utf-8"), encoding="utf-8")
+    (tmp_path / "pyproject.toml").write_text(WITH_GROUPS)
+    words = [sys.executable, str(tmp_path / "run.py"), "bundle", "x\N{GREEK SMALL LETTER PI}"]
+    done = subprocess.run(words, capture_output=True, env={**os.environ, "PYTHONIOENCODING": "latin-1"})
+    assert b"no extra and no dependency group x?" in done.stderr

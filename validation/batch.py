@@ -14,8 +14,8 @@ from pathlib import Path
 from threading import Lock
 from typing import Any
 
+from fmu_build.version import this_commit
 from pysim.types import BadInput
-from validation.commit import this_commit
 
 _ROOT = Path(__file__).parents[1]
 _THREADS = ("OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS")

@@ -9,8 +9,8 @@ import traceback
 from collections.abc import Callable, Iterator, Sequence
 from datetime import UTC, datetime
 
+from fmu_build.version import this_commit
 from pysim.types import BadInput
-from validation.commit import this_commit
 from validation.findings import Finding
 from validation.registry import CASES
 from validation.results import CaseResult, this_machine

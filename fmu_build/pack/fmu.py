@@ -9,6 +9,7 @@ from itertools import groupby
 from pathlib import Path
 
 from fmu_build.emit import (
+    GENERATION_TOOL,
     Description,
     c_source,
     complete_table,
@@ -26,6 +27,7 @@ from fmu_build.pack.platforms import Platform
 from fmu_build.pack.sources import Sources, sources_for
 from fmu_build.pack.validation import validate_own
 from fmu_build.scratch import scratch
+from fmu_build.version import version
 
 _NO_TOKEN = "{00000000-0000-0000-0000-000000000000}"
 _LICENSE = Path(__file__).with_name("license.txt")
@@ -45,6 +47,8 @@ def pack(model: OdeModel, output: Path, *, fmi: int, platforms: Sequence[Platfor
     token = _token(members)
     for path in ("modelDescription.xml", "sources/model.c"):
         members[path] = members[path].replace(_NO_TOKEN.encode(), token.encode())
+    tool = f'generationTool="{GENERATION_TOOL}'.encode()  # no part of the token, which a later version gives again
+    members["modelDescription.xml"] = members["modelDescription.xml"].replace(tool, tool + f" {version()}".encode())
     model_c = members["sources/model.c"]
     members |= _binaries(model_c, sources, model_identifier(model.name), fmi, platforms)
     write_archive(output, members, validate_own)

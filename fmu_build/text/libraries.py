@@ -8,6 +8,15 @@ from fmu_build.text.classes import ClassText, read_classes
 from fmu_build.text.declarations import Source
 from fmu_build.text.tokens import TextError
 
+BUNDLED_LIBRARY = "HydraulicTestBench"
+
+
+def bundled_library() -> Path:
+    """The folder of our own Modelica library: beside this package in a clone, inside it where it is installed."""
+    package = Path(__file__).resolve().parents[1]
+    inside = package / "modelica" / BUNDLED_LIBRARY
+    return inside if inside.is_dir() else package.parent / "modelica" / BUNDLED_LIBRARY
+
 
 def check_place(place: Path) -> None:
     """Refuse what is no library: neither a folder with a package.mo nor a .mo file. Raises TextError."""

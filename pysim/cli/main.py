@@ -86,12 +86,12 @@ class Parser(argparse.ArgumentParser):
 
 
 class _Version(argparse.Action):
-    """Print the version of the installed package."""
+    """Print the version, of the clone or of the installed package."""
 
     def __call__(self, parser: argparse.ArgumentParser, *_: object) -> None:
-        from importlib.metadata import version
+        from fmu_build.version import version
 
-        print(f"pysim {version('hydraulic-test-bench')}")
+        print(f"pysim {version()}")
         parser.exit()
 
 
@@ -127,7 +127,8 @@ def _guarded(args: argparse.Namespace) -> int:
             print(f"pysim {args.command}: {error}", file=sys.stderr)
             return code
         traceback.print_exc()
-        print(f"pysim {args.command}: this is our mistake, please report the lines above", file=sys.stderr)
+        said = "this is our mistake, please report the lines above, with those of `pysim report-bug`"
+        print(f"pysim {args.command}: {said}", file=sys.stderr)
         return OUR_BUG
 
 

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Mapping
-from importlib import metadata
 
+import numpy as np
+
+from fmu_build.version import DISTRIBUTION, version
 from pysim.identify import SteppedSine
 from pysim.identify.settling import TOLERANCE
 from pysim.simulate import Solver
 from pysim.types import Model
-
-_DISTRIBUTION = "hydraulic-test-bench"
 
 
 def conditions(model: Model, plan: SteppedSine, solver: Solver, about: str) -> dict[str, str]:
@@ -30,8 +30,7 @@ def conditions(model: Model, plan: SteppedSine, solver: Solver, about: str) -> d
 
 def versions() -> str:
     """Of this project, Python and NumPy."""
-    ours = f"{_DISTRIBUTION} {_version(_DISTRIBUTION)}"
-    return f"{ours}, Python {platform.python_version()}, NumPy {_version('numpy')}"
+    return f"{DISTRIBUTION} {version()}, Python {platform.python_version()}, NumPy {np.__version__}"
 
 
 def parameters(model: Model, overrides: Mapping[str, float]) -> dict[str, tuple[float, str]]:
@@ -41,10 +40,3 @@ def parameters(model: Model, overrides: Mapping[str, float]) -> dict[str, tuple[
         for v in model.variables
         if v.causality == "parameter" and v.start is not None
     }
-
-
-def _version(distribution: str) -> str:
-    try:
-        return metadata.version(distribution)
-    except metadata.PackageNotFoundError:
-        return "(not installed, run from its folder)"

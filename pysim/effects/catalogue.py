@@ -12,12 +12,13 @@ from typing import Any
 from fmu_build.text import ClassText, Declaration, Libraries
 from fmu_build.text.declarations import Kind, Modifier, modifiers
 from fmu_build.text.expressions import literal
+from fmu_build.text.libraries import bundled_library
 from fmu_build.text.tokens import string_value
 from pysim.effects._text import as_bad_input, attributes_of, known_class
 from pysim.types import BadInput, Effect, EffectParameter
 
 VENDOR = "__HydraulicTestBench"  # the annotation's name
-STANDARD_LIBRARY = Path(__file__).resolve().parents[2] / "modelica" / "HydraulicTestBench"  # the one that comes along
+STANDARD_LIBRARY = bundled_library()
 _Said = Mapping[str, Modifier]
 
 

@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from fmu_build.version import version
 from pysim.io.archive import DAMAGED
 from pysim.io.files import write_file
 from pysim.types import BadInput, Outcome, Record
@@ -21,6 +22,7 @@ _HEADING = re.compile(r"(?P<name>.*) \[(?P<unit>[^\[\]]*)\]")
 
 _OUTCOMES = "|".join(re.escape(outcome.value) for outcome in Outcome)
 _NOTE = re.compile(rf"(?P<origin>.*?): (?P<outcome>{_OUTCOMES})\.(?: (?P<message>.*))?")  # first line of a .csv
+_PROGRAM = re.compile(r" \[pysim [^\[\]]*\]$")  # behind it, which version wrote it
 
 
 def write_record(record: Record, path: Path | str) -> None:
@@ -82,6 +84,7 @@ def _description(record: Record) -> dict[str, Any]:
         "outcome": record.outcome.name,
         "message": record.message,
         "origin": record.origin,
+        "program": f"pysim {version()}",
         "statistics": dict(record.statistics),
     }
 
@@ -109,7 +112,7 @@ def _from_npz(path: Path) -> Record:
 
 def _as_csv(record: Record) -> bytes:
     text = io.StringIO()
-    note = " ".join(f"# {record.origin}: {record.outcome.value}. {record.message}".split())
+    note = " ".join(f"# {record.origin}: {record.outcome.value}. {record.message} [pysim {version()}]".split())
     text.write(note + "\n")
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([_TIME, *(f"{n} [{u}]" for n, u in zip(record.names, record.units, strict=True))])
@@ -146,7 +149,7 @@ def _from_csv(path: Path) -> Record:
 
 def _noted(line: str) -> tuple[Outcome, str, str]:
     """Outcome, message and origin from the first line; a line of another hand is the origin."""
-    note = line.removeprefix("#").strip()
+    note = _PROGRAM.sub("", line.removeprefix("#").strip())
     found = _NOTE.fullmatch(note)
     if found is None:
         return Outcome.DONE, "", note

@@ -7,6 +7,8 @@ from collections.abc import Iterable, Sequence
 from html import escape
 from typing import TYPE_CHECKING
 
+from fmu_build.version import DISTRIBUTION, version
+
 if TYPE_CHECKING:
     from pysim.present.render import Drawing
 
@@ -53,7 +55,8 @@ def page(title: str, lead: str, parts: Iterable[str], redo: str = "") -> str:
         '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
         '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
         f"<title>{escape(title)}</title>\n<style>{_STYLE}</style>\n</head>\n<body>\n"
-        f'<h1>{escape(title)}</h1>\n<p class="lead">{escape(lead)}</p>\n{body}\n</body>\n</html>\n'
+        f'<h1>{escape(title)}</h1>\n<p class="lead">{escape(lead)}</p>\n{body}\n'
+        f'<p class="lead">Written by {DISTRIBUTION} {version()}.</p>\n</body>\n</html>\n'
     )
 
 

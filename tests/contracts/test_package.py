@@ -36,7 +36,9 @@ def test_all_parts_are_there(fmu: Fmu, fmi: int) -> None:
 
 @pytest.mark.parametrize("fmi", [2, 3])
 def test_the_same_input_gives_the_same_bytes(fmi: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    first = build_case(CASES[0], fmi, tmp_path).read_bytes()
+    first = build_case(
+        CASES[0], fmi, tmp_path, use_cache=False
+    ).read_bytes()  # one that is kept may be an earlier version's
     monkeypatch.setenv("HTB_CACHE", str(new_cache(tmp_path / "another")))
     assert build_case(CASES[0], fmi, tmp_path).read_bytes() == first
 

@@ -6,8 +6,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pysim.thesis import read_csv
 from tests.modelica.library import Run, assert_balanced, compiled, run
-from validation.read_csv import read_csv
 
 REFERENCE = Path(__file__).parents[2] / "validation" / "reference" / "pump_time_response.csv"
 

@@ -1,7 +1,6 @@
-"""Findings, how a case's result is kept, and the commit that it carries."""
+"""Findings, and how a case's result is kept."""
 
 import math
-import subprocess
 from dataclasses import replace
 from importlib.util import find_spec
 from pathlib import Path
@@ -11,7 +10,6 @@ import pytest
 import validation
 from tests.validation import made_up
 from tests.validation.made_up import BAD, GOOD, result
-from validation import commit
 from validation.findings import Finding
 from validation.registry import CASES, GROUPS
 from validation.results import from_line, keep_results, read_results, to_line, verdict_of
@@ -39,26 +37,6 @@ def test_the_last_run_of_each_case_is_kept_with_its_commit(tmp_path: Path, monke
     bad = result("bad", *BAD, error="ValueError: x")
     keep_results(file, [old, gone])
     assert keep_results(file, [bad, new]) == read_results(file) == (new, bad)
-
-
-def test_a_commit_is_dirty_where_code_differs_and_not_where_pages_do(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def git(*words: str) -> str:
-        own = ("-c", "user.name=a", "-c", "user.email=a@example.org", "-c", "commit.gpgsign=false")
-        return subprocess.run(["git", *own, *words], cwd=tmp_path, check=True, capture_output=True, text=True).stdout
-
-    monkeypatch.setattr(commit, "_ROOT", tmp_path.resolve())
-    assert commit.this_commit() == ""
-    git("init")
-    (tmp_path / "a.py").write_text("1\n")
-    git("add", ".")
-    git("commit", "-m", "a")
-    clean = git("rev-parse", "HEAD")[:12]
-    (tmp_path / "a.md").write_text("a page\n")
-    assert commit.this_commit() == clean
-    (tmp_path / "a.py").write_text("2\n")
-    assert commit.this_commit() == f"{clean}-dirty"
 
 
 def test_every_case_has_its_module_a_page_and_a_group() -> None:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from functools import cache
 
 from pysim.identify.greybox import Parameter, fit, problem
+from pysim.thesis import pump_model
 from pysim.types import Dataset, Fit, Model
 from validation.accuracy.judged import HELD_OUT, Judged, judged
 from validation.accuracy.transfer import black_box
@@ -13,7 +14,6 @@ from validation.blind.benchmark.workshop import workshop
 from validation.diagnosis.answers import read_answers
 from validation.diagnosis.sets import read_set
 from validation.fit_thesis.case import LOCKED, NAMES
-from validation.pump import pump_model
 
 SET = "bench-03"  # its pump has a dead band in the valve, which the base model has not
 HELD_TEST = (75.0, 10.0)  # % offset and amplitude of the stepped sines that are held out, all frequencies

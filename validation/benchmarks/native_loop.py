@@ -25,9 +25,9 @@ import fmu_build
 from pysim.identify.stepped_sine import SteppedSine, stepped_sine
 from pysim.io import extracted, read_model
 from pysim.simulate import Rk45, Rodas, simulate_many
+from pysim.thesis import FREQUENCIES_HZ
 from pysim.types import Experiment, Model, Record, SineTest
 from validation.findings import Finding
-from validation.thesis import FREQUENCIES_HZ
 
 CLASS = "HydraulicTestBench.Examples.SteppedSine"
 RATIO, LIMIT = 20.0, 0.01  # at least; percent of the angle's range, root mean square, at most

@@ -7,9 +7,9 @@ from functools import partial
 from statistics import median
 
 from pysim.simulate import Esdirk, open_runs
+from pysim.thesis import pump_model
 from pysim.types import Outcome
 from validation.benchmarks.measurement import Measurement, timed
-from validation.pump import pump_model
 from validation.sensitivity.case import PARAMETERS, orbits
 
 AIM, CALL_NS = 12.0, 45.0  # the pump's right-hand side as one C function, called without FMI

@@ -11,10 +11,9 @@ from fmpy import instantiate_fmu, read_model_description, simulate_fmu
 import fmu_build
 from pysim.identify.greybox import Effort, Parameter, Problem, Simulation, fit, problem
 from pysim.io import extracted, read_model
+from pysim.thesis import FREQUENCIES_HZ, pump_model
 from pysim.types import Dataset, Fit, FitOutcome, Model, Record
 from validation.benchmarks.native_loop import CLASS, CVODE_TOLERANCE, experiments, run_fmpy
-from validation.pump import pump_model
-from validation.thesis import FREQUENCIES_HZ
 from validation.virtual_pump import measured, noise_free
 
 NAMES = ("omega_v", "zeta_v", "L", "A_p", "V_0", "m_eff", "k", "b", "K_p", "K_D", "T_d", "K_L", "tau")

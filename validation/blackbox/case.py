@@ -12,17 +12,15 @@ import numpy as np
 from pysim.identify import FREQUENCY_CRITERIA, frequency_deviations
 from pysim.identify.blackbox import THESIS_STRUCTURE, Structure, fit_transfer_function, from_thesis_row, thesis_row
 from pysim.io import read_dataset
+from pysim.thesis import FREQUENCIES_HZ, printed_table, published_deviations, write_dataset
 from pysim.types import FrequencyResponse, SineTest
 from validation.blackbox.coverage import BenchLog, Coverage, coverage
 from validation.findings import Finding
 from validation.pump_frequency.case import reference_responses
-from validation.read_csv import read_csv
-from validation.thesis import FREQUENCIES_HZ, published_deviations, write_dataset
 
 RUNS = 500
 LOUD = 3.0  # percent of full angle: more than half the smallest amplitude
 COEFFICIENT_LIMIT, POOLED_LIMIT, RARE = 0.1, 2.0, 1e-3  # percent; percent off 95; of a binomial test
-_TABLES = Path(__file__).parents[1] / "thesis"
 
 
 def run() -> Iterator[Finding]:
@@ -36,7 +34,7 @@ def run() -> Iterator[Finding]:
 def printed_rows(table: str) -> list[tuple[SineTest, dict[str, float]]]:
     """Test and coefficients of every row of Table "4.1" or "4.3"."""
     rows = []
-    for row in read_csv(_TABLES / f"table_{table.replace('.', '_')}" / "coefficients.csv"):
+    for row in printed_table(table):
         test = SineTest(float(row["offset_percent"]), float(row["amplitude_percent"]), "alphaCMD", "alphaPercent")
         columns = {name.partition("_")[0]: name for name in row}
         rows.append((test, {name: float(row[columns[name]]) for name in ("b0", "a4", "a3", "a2", "a1", "a0")}))

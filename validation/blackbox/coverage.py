@@ -19,8 +19,8 @@ from pysim.identify.blackbox import (
     complex_response,
     fit_transfer_function,
 )
+from pysim.thesis import FREQUENCIES_HZ
 from pysim.types import Record, SineTest
-from validation.thesis import FREQUENCIES_HZ
 
 Array = NDArray[np.float64]
 

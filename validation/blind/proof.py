@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from pysim.io import read_dataset
 from pysim.simulate import Rodas, simulate_many
+from pysim.thesis import pump_model
 from pysim.types import Experiment, MeasuredRecord, Record, Signal
 from validation.blind.plant.case import ANGLE_STEP, SPOOL_STEP
 from validation.blind.plant.command import Command, Lead, chirp, stepped_sine
@@ -22,7 +23,6 @@ from validation.blind.plant.equations import run as run_plant
 from validation.blind.plant.programme import RATE, programme
 from validation.blind.plant.quantities import STEP, Parameters, Strengths
 from validation.findings import Finding
-from validation.pump import pump_model
 
 Array = NDArray[np.float64]
 

@@ -8,12 +8,10 @@ from pathlib import Path
 
 from pysim.diagnosis import compare_responses
 from pysim.io import read_dataset
+from pysim.thesis import Difference, differences, pump_model, read_csv, write_dataset
+from pysim.thesis.explanation import TOLERANCE_DB, TOLERANCE_DEG
 from pysim.types import Comparison
 from validation.findings import Finding
-from validation.pump import pump_model
-from validation.read_csv import read_csv
-from validation.thesis import Difference, differences, write_dataset
-from validation.thesis.explanation import TOLERANCE_DB, TOLERANCE_DEG
 
 LIMITS = (0.05, 0.05, 0.3, 0.3)
 # With the locked set, V_0 - A_p x_p of Eq. 3.5 reaches zero inside this test's stroke: the thesis' equations end there,

@@ -9,11 +9,11 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
+from fmu_build.version import this_commit
 from pysim.diagnosis import diagnose, session
 from pysim.io import write_file
 from pysim.types.answer import Diagnosis
 from validation.blind.benchmark.workshop import workshop
-from validation.commit import this_commit
 from validation.diagnosis.intervals import named
 from validation.diagnosis.sets import read_set
 

@@ -11,9 +11,9 @@ import numpy as np
 
 from pysim.identify.greybox import fit, problem
 from pysim.io import read_dataset
+from pysim.thesis import pump_model
 from pysim.types import Fit, FitOutcome
 from validation.findings import Finding
-from validation.pump import pump_model
 
 FOLDER = Path(__file__).parents[1] / "measurements"
 NAMES = ("omega_v", "zeta_v", "L", "A_p", "V_0", "m_eff", "k", "b", "K_p", "K_D", "T_d", "K_L", "tau")

@@ -8,9 +8,9 @@ import numpy as np
 from scipy import stats
 
 from pysim.identify.greybox import Effort, Parameter, fit, problem
+from pysim.thesis import pump_model
 from pysim.types import Fit, FitOutcome, MeasuredRecord, Model, Record
 from validation.findings import Finding
-from validation.pump import pump_model
 from validation.virtual_pump import NOISE, measured, noise_free
 
 DRAWS = 100

@@ -9,10 +9,9 @@ from pathlib import Path
 
 from pysim.identify.greybox import FREQUENCY, NOISE, InteriorPoint, Objective, Parameter, fit, problem
 from pysim.io import read_dataset
+from pysim.thesis import pump_model, write_dataset
 from pysim.types import Dataset, Fit, FitOutcome
 from validation.findings import Finding
-from validation.pump import pump_model
-from validation.thesis import write_dataset
 
 NAMES = ("omega_v", "zeta_v", "L", "A_p", "V_0", "m_eff", "k", "b", "K_p", "K_D", "T_d", "K_L", "tau")
 LOCKED = ("L", "A_p")  # from the data sheet, Table 4.5

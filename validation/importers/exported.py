@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 import fmu_build
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
+from pysim.thesis import read_csv
 from pysim.types import Experiment, Signal
-from validation.read_csv import read_csv
 
 Array = NDArray[np.float64]
 FOLDER = Path(__file__).parent / "reference"

@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.thesis import read_csv
 from validation.importers.exported import Exported
-from validation.read_csv import read_csv
 
 Array = NDArray[np.float64]
 PROGRAM = "fmusim"

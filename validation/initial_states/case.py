@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from pysim.identify.greybox import Effort, Parameter, fit, problem
 from pysim.io import read_dataset
+from pysim.thesis import pump_model
 from pysim.types import Dataset, Estimate, Fit, MeasuredRecord, Model, Record
 from validation.findings import Finding
 from validation.initial_states.closed import closed_model
 from validation.initial_states.mass import TRUTH, at_rest, force, logged, mass_model, measured, motion
-from validation.pump import pump_model
 
 Array = NDArray[np.float64]
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import json
 from typing import Any
 
+from fmu_build.version import this_commit
 from pysim.io import write_file
-from validation.commit import this_commit
 from validation.known_answers.answers import TODAY, kept
 from validation.known_answers.case import findings
 from validation.known_answers.machines import MACHINES

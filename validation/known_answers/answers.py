@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from fmu_build.version import this_commit
 from pysim.io import write_dataset, write_file
-from validation.commit import this_commit
 from validation.known_answers.machines import MACHINES
 
 TODAY = Path(__file__).parent / "today.json"

@@ -18,6 +18,7 @@ from pysim.identify.multisine import (
     robust_approximation,
 )
 from pysim.simulate import Rodas, simulate_many
+from pysim.thesis import pump_model
 from pysim.types import BestLinearApproximation, Distortion, Experiment, Model, SineTest
 from validation.findings import Finding
 from validation.multisine.systems import (
@@ -31,7 +32,6 @@ from validation.multisine.systems import (
     measured,
     square_power,
 )
-from validation.pump import pump_model
 
 Array = NDArray[np.float64]
 

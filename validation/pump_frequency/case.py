@@ -11,10 +11,9 @@ import numpy as np
 from pysim.identify import frequency_response, response_difference, stepped_sine
 from pysim.identify.stepped_sine import SteppedSine
 from pysim.simulate import simulate_many
+from pysim.thesis import CLASSES, pump_model, read_csv
 from pysim.types import FrequencyResponse, Model, SineTest
 from validation.findings import Finding
-from validation.pump import CLASSES, pump_model
-from validation.read_csv import read_csv
 
 LIMIT_DB, LIMIT_DEG = 0.03, 0.25
 _FILE = Path(__file__).parents[1] / "reference" / "pump_frequency_response.csv"

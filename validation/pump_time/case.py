@@ -9,11 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.simulate import simulate
+from pysim.thesis import pump_model, read_csv
 from pysim.types import Experiment, Model, Record, Signal
 from validation.findings import Finding
-from validation.pump import pump_model
 from validation.pump_time.cosimulation import cosimulate
-from validation.read_csv import read_csv
 
 Array = NDArray[np.float64]
 

@@ -12,8 +12,8 @@ import fmu_build
 from pysim.effects import STANDARD_LIBRARY, variant
 from pysim.identify.greybox import Effort, GaussNewton, Parameter, fit, problem
 from pysim.io import read_model
+from pysim.thesis import CLASSES, pump_model
 from pysim.types import Dataset, Fit, Model
-from validation.pump import CLASSES, pump_model
 from validation.real_measurements.hypotheses import LOCKED, Hypothesis, hypotheses
 
 # A known number's fit starts where it stands and this much to either side: the valley between is long and bent.

@@ -15,10 +15,9 @@ import fmu_build
 from pysim.effects import STANDARD_LIBRARY, read_catalogue, variant
 from pysim.identify.greybox import Parameter, problem
 from pysim.io import read_model
+from pysim.thesis import CLASSES, loaded_responses, published_deviations
 from pysim.types import Dataset, FrequencyResponse, Model
-from validation.pump import CLASSES
 from validation.real_measurements.reference import reference
-from validation.thesis import loaded_responses, published_deviations
 
 Array = NDArray[np.float64]
 

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 from pysim.io import read_dataset
+from pysim.thesis import published_deviations, write_dataset
 from pysim.types import Dataset, FrequencyResponse
-from validation.thesis import published_deviations, write_dataset
 
 # Mean size of normal errors over their standard deviation.
 _MEAN_SIZE = math.sqrt(2 / math.pi)

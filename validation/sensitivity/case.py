@@ -16,10 +16,9 @@ from numpy.typing import NDArray
 
 from pysim.identify.stepped_sine import stepped_sine
 from pysim.simulate import Esdirk, Orbit, Periodic, Rodas, periodic_many, sensitivities_many, simulate_many
+from pysim.thesis import FREQUENCIES_HZ, pump_model
 from pysim.types import Experiment, Model, Outcome, Signal, SineTest
 from validation.findings import Finding
-from validation.pump import pump_model
-from validation.thesis import FREQUENCIES_HZ
 
 PARAMETERS = ("omega_v", "zeta_v", "L", "A_p", "V_0", "m_eff", "k", "b", "K_p", "K_D", "T_d", "K_L", "tau")
 RECORDED = ("alphaPercent", "u")

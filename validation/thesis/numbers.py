@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from validation.read_csv import read_csv
+from pysim.thesis import read_csv
 
 
 def published(case: str) -> dict[str, float]:

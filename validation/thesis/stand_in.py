@@ -7,8 +7,8 @@ from functools import cache
 
 from pysim.bench import BenchData, Plan, read_plan, run_plan
 from pysim.bench.bench_tests import BenchTest
+from pysim.thesis import pump_model
 from pysim.types import Dataset, MeasuredRecord, Record
-from validation.pump import pump_model
 
 COMMAND, ANGLE, SPOOL = "alphaCMD", "alphaPercent", "u"
 NOTE = (

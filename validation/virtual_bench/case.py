@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from pysim.bench import BenchData, Plan, read_plan, run_plan
 from pysim.identify.data_check import check_dataset
 from pysim.io import read_dataset, write_dataset
+from pysim.thesis import pump_model
 from pysim.types import Dataset, MeasuredSignal, Record
 from validation.findings import Finding
-from validation.pump import pump_model
 
 MEASUREMENTS = Path(__file__).parents[1] / "measurements"
 SEED = 1

@@ -17,7 +17,7 @@ def run(given: Given) -> int:
     try:
         from pysim.app import Limits, serve
     except ModuleNotFoundError as error:
-        cure = 'pip install ".[app]" in the checkout, or start it with run.py, whose environment has it'
+        cure = 'pip install "hydraulic-test-bench[app]", or start it with run.py of a clone, whose environment has it'
         raise BadInput(f"the workbench needs {error.name}; {cure}") from error
     if not 0 <= given.port <= _HIGHEST_PORT:
         raise BadInput(f"--port {given.port}: write a number from 0 (any that is free) to {_HIGHEST_PORT}")

@@ -31,9 +31,8 @@ def run(given: Given) -> int:
     from pysim.present.comparison import Comparisons, comparison_text, data, page
     from pysim.present.progress import Working
     from pysim.simulate import build_kernel
-    from validation.pump import CLASSES
-    from validation.thesis import FREQUENCIES_HZ, write_dataset
-    from validation.thesis.page import against_the_thesis
+    from pysim.thesis import CLASSES, FREQUENCIES_HZ, write_dataset
+    from pysim.thesis.page import against_the_thesis
 
     folder = prepare_folder(given.output)
     frequencies = QUICK_FREQUENCIES_HZ if given.quick else FREQUENCIES_HZ
@@ -79,7 +78,7 @@ def draw_picture(comparisons: Sequence[Comparison], folder: Path, name: str) -> 
 def _build(label: str, folder: Path) -> Model:
     """One parameter set's FMU."""
     from pysim.present.progress import Working
-    from validation.pump import CLASSES, pump_model
+    from pysim.thesis import CLASSES, pump_model
 
     with Working(f"Building {CLASSES[label]}"):
         return pump_model(label, output=folder / f"{CLASSES[label].rpartition('.')[2]}.fmu")
@@ -89,7 +88,7 @@ def _compare(label: str, model: Model, dataset: Dataset) -> Comparison:
     """Run all tests through one model."""
     from pysim.diagnosis import compare_responses
     from pysim.present.progress import ProgressBar
-    from validation.pump import SOURCES
+    from pysim.thesis import SOURCES
 
     with ProgressBar(f"{label} set") as progress:
         return compare_responses(model, dataset, label=label, about=SOURCES[label], progress=progress)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -12,9 +13,12 @@ if TYPE_CHECKING:
     from validation.findings import Finding
     from validation.results import CaseResult
 
+_CLONE = Path(__file__).resolve().parents[3]  # where there is one
+
 
 def run(given: Given) -> int:
     """NO when one claim fails of those that could be tried."""
+    _check_clone()
     from pysim.cli.outputs import prepare_file, prepare_folder
     from validation.page import write_page
     from validation.registry import CASES
@@ -33,7 +37,7 @@ def run(given: Given) -> int:
         numbers = prepare_file(given.json, "--json", (".json", ".jsonl"))
         if numbers.is_file():  # not a device, such as /dev/null
             numbers.unlink()
-    checkout = _checkout() if given.record else None
+    checkout = _CLONE if given.record else None
     show = _Show(len(names))
     results = []
     for result in run_cases(names, show):
@@ -68,18 +72,15 @@ class _Show:
         print(f"  {end} in {took} ({self._done} of {self._total})", flush=True)
 
 
-def _checkout() -> Path:
-    """The folder with the README.
-
-    Raises:
-        BadInput: this is an installed package, without one.
-    """
+def _check_clone() -> None:
+    """Raise BadInput where the cases are not there."""
     from pysim.types import BadInput
 
-    root = Path(__file__).resolve().parents[3]
-    if not (root / "pyproject.toml").is_file():
-        raise BadInput("--record writes into a checkout and this is an installed package; use --output or --json")
-    return root
+    if find_spec("validation") is None:
+        raise BadInput(
+            "the cases and their data are not installed with the package; clone the project and type "
+            "`python3 run.py validate` in its folder"
+        )
 
 
 COMMAND = Command(

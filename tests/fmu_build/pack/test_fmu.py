@@ -1,6 +1,7 @@
 """An FMU for several platforms."""
 
 import os
+import re
 import threading
 import zipfile
 
@@ -48,3 +49,15 @@ def test_a_platform_that_does_not_compile_leaves_no_fmu(tmp_path, monkeypatch):
     with pytest.raises(CompilerError, match="x86_64-windows: the C compiler failed"):
         fmu.pack(OSCILLATOR, tmp_path / "m.fmu", fmi=2, platforms=PLATFORMS)
     assert list(tmp_path.iterdir()) == []
+
+
+def test_it_says_which_version_made_it_and_keeps_its_token(tmp_path, monkeypatch):
+    found = set()
+    for version in ("0.2.0", "0.3.0.post1+gabc"):
+        monkeypatch.setattr(fmu, "version", lambda version=version: version)
+        fmu.pack(OSCILLATOR, tmp_path / "m.fmu", fmi=2, platforms=[])
+        with zipfile.ZipFile(tmp_path / "m.fmu") as archive:
+            text = archive.read("modelDescription.xml").decode()
+        assert f'generationTool="fmu_build {version}"' in text
+        found.add(re.search('guid="([^"]+)"', text)[1])
+    assert len(found) == 1

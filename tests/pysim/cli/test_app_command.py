@@ -15,7 +15,7 @@ def test_without_its_extra_it_says_what_to_install(
         monkeypatch.delitem(sys.modules, name)
     monkeypatch.setitem(sys.modules, "nicegui", None)
     assert main(["app", str(tmp_path / "p")]) == 2
-    assert 'the workbench needs nicegui; pip install ".[app]" in the checkout, or' in capsys.readouterr().err
+    assert 'the workbench needs nicegui; pip install "hydraulic-test-bench[app]", or' in capsys.readouterr().err
     assert not (tmp_path / "p").exists()
 
 

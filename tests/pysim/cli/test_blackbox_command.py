@@ -8,8 +8,8 @@ import pytest
 
 from pysim.cli import main
 from pysim.cli.outputs import MARKER
+from pysim.thesis import write_dataset
 from tests.pysim.cli.ran import refused
-from validation.thesis import write_dataset
 
 
 @pytest.fixture(scope="module")

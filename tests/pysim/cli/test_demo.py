@@ -15,11 +15,10 @@ import pytest
 from pysim.cli import main
 from pysim.identify import TransferFunction
 from pysim.present import Drawing
+from pysim.thesis import printed_table
 from pysim.types import Comparison, Experiment, Model, Record
 from tests.pysim import comparisons as linear
 from tests.pysim.cli.ran import refused
-from validation.read_csv import read_csv
-from validation.thesis.table_4_1 import responses as table_4_1
 
 SIGNALS = (
     linear.variable("alphaCMD", "input", "%"),
@@ -32,7 +31,7 @@ SIGNALS = (
 def functions() -> dict[tuple[float, float], TransferFunction]:
     """Table 4.1 by offset and amplitude."""
     found = {}
-    for row in read_csv(Path(table_4_1.__file__).parent / "coefficients.csv"):
+    for row in printed_table("4.1"):
         b0, a4, a3, a2, a1, a0 = (float(row[k]) for k in ("b0_1e6", "a4", "a3", "a2_1e3", "a1_1e6", "a0_1e6"))
         function = TransferFunction((b0 * 1e6,), (1.0, a4, a3, a2 * 1e3, a1 * 1e6, a0 * 1e6))
         found[float(row["offset_percent"]), float(row["amplitude_percent"])] = function
@@ -70,7 +69,7 @@ def demo(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
 
     monkeypatch.setattr("pysim.identify.greybox.helper_processes", in_this_process)
     monkeypatch.setattr("pysim.cli.commands.demo.draw_picture", draw_picture)
-    monkeypatch.setattr("validation.pump.pump_model", pump_model)
+    monkeypatch.setattr("pysim.thesis.pump_model", pump_model)
     monkeypatch.setattr(import_module("pysim.diagnosis.response_comparison"), "simulate_many", simulate_many)
     return tmp_path / "results" / "demo"
 

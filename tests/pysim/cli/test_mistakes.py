@@ -71,6 +71,7 @@ MISTAKES = [
     (["frf", "d", "d"], ["d is one word too many", "quotation marks"]),
     (["frf", "d", "--signal"], ["--signal", "its value is missing"]),
     (["demo", "--quik"], ["--quik", "did you mean --quick?"]),
+    (["report-bug", "now"], ["now is one word too many"]),
     (["rig", "jump"], ["there is no jump", "choose of step, heave"]),
     (["rig", "heave", "--fmi", "4"], ["--fmi", "none of 2, 3"]),
     (["signal", "sine"], ["there is no sine", "stepped-sine"]),

@@ -23,6 +23,17 @@ def test_exit_code(words: list[str], code: int) -> None:
     assert main(["validate", *words]) == code
 
 
+@pytest.mark.parametrize("words", [[], ["--list"], ["good", "--record"]])
+def test_an_installed_package_says_that_a_clone_is_needed(
+    words: list[str], monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(validate, "find_spec", lambda name: None)
+    assert main(["validate", *words]) == 2
+    said = capsys.readouterr()
+    assert (said.out, said.err.count("\n")) == ("", 1)
+    assert "are not installed with the package; clone the project and type `python3 run.py validate`" in said.err
+
+
 @pytest.mark.parametrize("words", [["none"], ["--nonsense"]])
 def test_wrong_use(words: list[str]) -> None:
     assert main(["validate", *words]) == 2
@@ -54,7 +65,7 @@ def test_a_device_is_written_to_and_stays(tmp_path: Path) -> None:
 
 def test_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "validation").mkdir()
-    monkeypatch.setattr(validate, "_checkout", lambda: tmp_path)
+    monkeypatch.setattr(validate, "_CLONE", tmp_path)
     for _ in range(2):
         assert main(["validate", "good", "--record"]) == 0
     assert len(read_results(tmp_path / "validation" / "recorded.jsonl")) == 1

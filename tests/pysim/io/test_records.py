@@ -6,6 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
+from fmu_build.version import version
 from pysim.io import read_record, record_data, record_text, write_record
 from pysim.types import BadInput, Outcome, Record
 
@@ -51,7 +52,7 @@ def test_csv_opens_in_a_spreadsheet(tmp_path):
     write_record(_STOPPED, tmp_path / "r.csv")
     lines = (tmp_path / "r.csv").read_text().splitlines()
     assert lines == [
-        "# simulated pump: a value is no longer finite. it said: no",
+        f"# simulated pump: a value is no longer finite. it said: no [pysim {version()}]",
         'time [s],"a[0,1].b [bar]","a[1,1].b [bar]"',
         "0.0,1.0,2.0",
         "0.3333333333333333,3.0,4.0",

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from pysim.simulate import Esdirk, simulate
+from pysim.thesis import pump_model
 from pysim.types import Experiment, Signal
 from tests.pysim.simulate.fixture_fmus import STIFF
-from validation.pump import pump_model
 
 _METHOD = Esdirk().method()
 _A, _C = _METHOD.a, _METHOD.c

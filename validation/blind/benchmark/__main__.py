@@ -5,11 +5,11 @@ from __future__ import annotations
 import argparse
 import sys
 
+from fmu_build.version import this_commit
 from pysim.types import BadInput
 from validation.blind.benchmark.case import SEED, answer_cases, choose
 from validation.blind.benchmark.figures import KINDS, page
 from validation.blind.plant import cases
-from validation.commit import this_commit
 
 parser = argparse.ArgumentParser(prog="python -m validation.blind.benchmark", description=__doc__)
 parser.add_argument("cases", metavar="SEED/NAME", nargs="*", help="these cases, in this order (those that follow)")

@@ -12,10 +12,9 @@ from matplotlib.figure import Figure
 from pysim.diagnosis import compare_responses
 from pysim.io import read_dataset
 from pysim.present.comparison import bode_figure, deviation_figure
+from pysim.thesis import NOTE, published_deviations, pump_model, write_dataset
 from pysim.types import Comparison
 from validation.findings import Finding
-from validation.pump import pump_model
-from validation.thesis import NOTE, published_deviations, write_dataset
 
 OFFSETS = {25.0: 5, 50.0: 6, 75.0: 7, -25.0: 8, -50.0: 9, -75.0: 10}  # offset -> figure
 

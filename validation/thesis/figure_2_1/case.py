@@ -9,8 +9,8 @@ from matplotlib.figure import Figure
 
 from pysim.excitation import SteppedSineCommand
 from pysim.present.style import COLOURS, LIMIT, SMALL, TEXT, new_figure, quiet
+from pysim.thesis import FREQUENCIES_HZ
 from validation.findings import Finding
-from validation.thesis import FREQUENCIES_HZ
 from validation.thesis.numbers import published
 
 COMMAND = SteppedSineCommand(offset=50.0, amplitude=10.0, frequency=2.0, periods=6.0)

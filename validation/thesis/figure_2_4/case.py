@@ -12,10 +12,10 @@ from pysim.bench.bench_tests import SteppedSines
 from pysim.identify import measured_responses
 from pysim.identify.blackbox import THESIS_STRUCTURE, TransferFunctionFit, fit_transfer_function
 from pysim.present.style import COLOURS, MEASURED
+from pysim.thesis import FREQUENCIES_HZ
+from pysim.thesis import measured_responses as responses
 from pysim.types import FrequencyResponse
 from validation.findings import Finding
-from validation.thesis import FREQUENCIES_HZ
-from validation.thesis import measured_responses as responses
 from validation.thesis.drawing import bode_axes, draw, finish
 from validation.thesis.numbers import published
 from validation.thesis.stand_in import ANGLE, COMMAND, NOTE, bench

@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 
 from pysim.identify import frequency_deviations
 from pysim.present.style import COLOURS
+from pysim.thesis import FREQUENCIES_HZ, loaded_responses, measured_responses
 from pysim.types import FrequencyResponse
 from validation.findings import Finding
-from validation.thesis import FREQUENCIES_HZ, loaded_responses, measured_responses
 from validation.thesis.drawing import bode_axes, draw, finish
 
 

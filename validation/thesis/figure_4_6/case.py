@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from pysim.excitation import PiersonMoskowitz, StochasticWave
 from pysim.present.overlay import time_response_figure
 from pysim.simulate import Rodas, simulate_many
+from pysim.thesis import pump_model
 from pysim.types import Experiment, Record
 from validation.findings import Finding
-from validation.pump import pump_model
 from validation.thesis.numbers import published
 
 SIGNALS = ("alphaPercent", "u", "chamber1.p", "chamber2.p")

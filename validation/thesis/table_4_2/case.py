@@ -11,8 +11,8 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from pysim.present.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, new_figure, quiet
+from pysim.thesis import read_csv
 from validation.findings import Finding
-from validation.read_csv import read_csv
 
 _ROUNDING = 0.5  # bar, half the last digit
 MEAN_FLOW = 102.95  # l/min at full angle, Section 3.4.4

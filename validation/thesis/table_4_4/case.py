@@ -13,9 +13,9 @@ from matplotlib.figure import Figure
 from pysim.identify import FREQUENCY_CRITERIA, frequency_deviations
 from pysim.identify.blackbox import THESIS_STRUCTURE, fit_transfer_function
 from pysim.present.style import COLOURS, LIMIT, MARKERS, SMALL, TEXT, legend_above, new_figure, quiet
+from pysim.thesis.published import PublishedDeviations, published_deviations
 from validation.findings import Finding
 from validation.pump_frequency.case import reference_responses
-from validation.thesis.published import PublishedDeviations, published_deviations
 
 _TABLES = ("4.4", "4.7", "4.8")
 _SHARE = 1 / 3  # of a limit, by which a row's mean magnitude may be off: the plant is the thesis' model, not its pump

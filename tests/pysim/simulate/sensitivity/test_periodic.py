@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from pysim.simulate import Esdirk, Periodic, Rodas, periodic_many, simulate
+from pysim.thesis import pump_model
 from pysim.types import BadInput, Experiment, Outcome, Signal
 from tests.pysim.simulate.fixture_fmus import HOARDER, OSCILLATOR
 from tests.pysim.simulate.text_models import DISCARDS, LATE, RELAY, TANK, text_model
-from validation.pump import pump_model
 
 _TIGHT = Esdirk(1e-8, 1e-8)
 _OMEGA = 3.0

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from pysim.simulate import Esdirk, Rodas, sensitivities, sensitivities_many, simulate
+from pysim.thesis import pump_model
 from pysim.types import BadInput, Experiment, Outcome, Signal, SimulationError
 from tests.pysim.simulate.fixture_fmus import BALL, FRAGILE, OSCILLATOR
 from tests.pysim.simulate.text_models import DISCARDS, LAG, ROOT, text_model
-from validation.pump import pump_model
 
 _TIGHT = Esdirk(1e-8, 1e-8)
 _OMEGA = 3.0

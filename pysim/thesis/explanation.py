@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from pysim.thesis.published import published_deviations
 from pysim.types import Comparison
-from validation.thesis.published import published_deviations
 
 # Half a unit of the last printed digit of both tables, in dB and degrees
 _ROUNDING = (0.01, 0.01, 0.1, 0.1)

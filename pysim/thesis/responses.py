@@ -9,8 +9,8 @@ import numpy as np
 
 from pysim.identify import TransferFunction, magnitude_db
 from pysim.io import write_file
+from pysim.thesis.printed import printed_table
 from pysim.types import FrequencyResponse, SineTest
-from validation.read_csv import read_csv
 
 FREQUENCIES_HZ = (0.1, 0.2, 0.5, 1, 2, 3, 4, 5, 6, 8, 10, 12, 15, 18, 20, 22, 25, 28, 30)
 
@@ -54,13 +54,12 @@ def measured_responses(frequencies: Sequence[float] = FREQUENCIES_HZ) -> tuple[F
 
     Source: thesis Eq. 4.1 and Table 4.1, whose column heads scale b0, a1 and a0 by 1e6 and a2 by 1e3.
     """
-    rows = read_csv(Path(__file__).parent / "coefficients.csv")
-    return tuple(_response(row, np.asarray(frequencies, dtype=np.float64)) for row in rows)
+    return tuple(_response(row, np.asarray(frequencies, dtype=np.float64)) for row in printed_table("4.1"))
 
 
 def loaded_responses(frequencies: Sequence[float] = FREQUENCIES_HZ) -> tuple[FrequencyResponse, ...]:
     """The two responses with an orifice as load, at 75 percent. Source: thesis Table 4.3, of the same form."""
-    rows = read_csv(Path(__file__).parents[1] / "table_4_3" / "coefficients.csv")
+    rows = printed_table("4.3")
     return tuple(_response(row, np.asarray(frequencies, dtype=np.float64), "Table 4.3") for row in rows)
 
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from pathlib import Path
 
-from validation.read_csv import read_csv
+from pysim.thesis.printed import printed_table
 
 
 @dataclass(frozen=True)
@@ -24,7 +23,6 @@ def published_deviations(table: str) -> tuple[PublishedDeviations, ...]:
     Args:
         table: "4.4" (transfer functions), "4.7" (locked set) or "4.8" (free set).
     """
-    path = Path(__file__).parent / f"table_{table.replace('.', '_')}" / "deviations.csv"
     return tuple(
         PublishedDeviations(
             float(row["offset_percent"]),
@@ -32,5 +30,5 @@ def published_deviations(table: str) -> tuple[PublishedDeviations, ...]:
             (float(row["mean_db"]), float(row["max_db"]), float(row["mean_deg"]), float(row["max_deg"])),
             row["passes"] == "yes",
         )
-        for row in read_csv(path)
+        for row in printed_table(table)
     )

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from pysim.present.page import heading, items, table
+from pysim.thesis.explanation import differences, explain
 from pysim.types import Comparison
-from validation.thesis.explanation import differences, explain
 
 _TABLES = {"free": "4.8", "locked": "4.7"}
 _CAVEATS: dict[str, tuple[str, ...]] = {

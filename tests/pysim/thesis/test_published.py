@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.identify import FREQUENCY_CRITERIA
-from validation.thesis import measured_responses, published_deviations
+from pysim.thesis import measured_responses, published_deviations
 
 
 def test_table_4_1_makes_stable_systems_of_nearly_unit_gain() -> None:

@@ -6,9 +6,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from types import MappingProxyType
 
-import fmu_build
-from pysim.io import read_model
 from pysim.types import Model
+from pysim.workflow.model import compiled
 
 CLASSES: Mapping[str, str] = MappingProxyType(
     {"free": "HydraulicTestBench.Pump.FreeGreyBox", "locked": "HydraulicTestBench.Pump.LockedGreyBox"}
@@ -27,4 +26,4 @@ def pump_model(parameter_set: str, *, fmi: int = 2, output: Path | None = None) 
         fmi: 2 or 3.
         output: file to write; in the cache otherwise.
     """
-    return read_model(fmu_build.build(CLASSES[parameter_set], output, fmi=fmi))
+    return compiled(CLASSES[parameter_set], (), output, fmi=fmi)
