@@ -9,17 +9,14 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.identify.greybox.settings import RestSettings
 from pysim.identify.greybox.treatment import Treatment
 from pysim.simulate import Esdirk, Sensitivities, sensitivities_many
 from pysim.types import BadInput, Dataset, Experiment, MeasuredRecord, Model, Outcome, Record, Signal
 
 Array = NDArray[np.float64]
 
-_PERIODS = 10.0  # of the slowest sine of a table, within which a model is watched
-_LOOKS = 200  # times at which a disturbance is watched as it dies away, on a logarithmic scale
-_EARLIEST = 1e-4  # the first of them, as a share of the longest log
-_STILL = 1e-9  # share of its values that a model at rest may move by
-_SETTLED = 0.01  # share of its largest effect on what is compared below which a disturbance has died away
+_SETTINGS = RestSettings()
 
 
 @dataclass(frozen=True)
@@ -70,7 +67,7 @@ class Context:
     def longest(self) -> float:
         """s, of the longest log, or of some periods of the slowest sine of a table."""
         lasts = [float(np.ptp(log.data.time)) for log in self.dataset.logs() if isinstance(log.data, Record)]
-        lasts += [_PERIODS / float(response.frequency[0]) for response in self.dataset.responses()]
+        lasts += [_SETTINGS.periods / float(response.frequency[0]) for response in self.dataset.responses()]
         return max(lasts, default=0.0)
 
     @cached_property
@@ -80,7 +77,7 @@ class Context:
         count = len(self.model.abilities.states)
         if not (count and names and self.longest > 0):
             return None
-        times = self.longest * np.geomspace(_EARLIEST, 1.0, _LOOKS)
+        times = self.longest * np.geomspace(_SETTINGS.earliest, 1.0, _SETTINGS.looks)
         alone = Experiment(times, names, overrides=self.overrides, offset=np.zeros(count))
         return sensitivities_many(
             self.model, [alone], (), offset=True, solver=Esdirk(1e-5, 1e-5, derivative_tol=1e-3), workers=1
@@ -97,7 +94,7 @@ class Context:
         if found is None or found.record.outcome is not Outcome.DONE:
             return False
         values = found.record.values
-        return bool(np.all(np.ptp(values, axis=0) <= _STILL * np.abs(values).max(axis=0)))
+        return bool(np.all(np.ptp(values, axis=0) <= _SETTINGS.still * np.abs(values).max(axis=0)))
 
     @cached_property
     def settling(self) -> float:
@@ -116,5 +113,5 @@ class Context:
         effect = found.by_offset * nominal
         away = np.abs(effect - effect[-1])
         largest = np.max(np.abs(effect), axis=(0, 2))[:, None]  # of any state
-        moving = np.flatnonzero(np.any(away > _SETTLED * largest, axis=(1, 2)))
+        moving = np.flatnonzero(np.any(away > _SETTINGS.settled * largest, axis=(1, 2)))
         return float(times[min(moving[-1] + 1, times.size - 1)]) if moving.size else float(times[0])

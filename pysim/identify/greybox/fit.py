@@ -36,9 +36,6 @@ Array = NDArray[np.float64]
 # Standard deviation of the median of normal errors over that of their mean: what sums of sizes cost.
 _SIZES = math.sqrt(math.pi / 2)
 
-# Share of the sum of squares by which rough searches differ that may end at one optimum.
-_ALIKE = 0.02
-
 
 @dataclass(frozen=True)
 class Effort:
@@ -168,12 +165,12 @@ def _searched(
 
 def _worth_polishing(good: Mapping[str, State], best: str) -> list[str]:
     """The best search, and those that ended elsewhere at a cost that rough simulations do not tell from its own."""
-    chosen = [best]
+    chosen, alike = [best], FitSettings().alike
     for name, state in good.items():
         here, there = state.best, good[best].best
-        near = here.cost - there.cost <= 0.5 * _ALIKE * there.square
+        near = here.cost - there.cost <= 0.5 * alike * there.square
         ways = [good[key].best.x - here.x for key in chosen]
-        if near and all(np.sum((here.jacobian @ way) ** 2) > _ALIKE * here.square for way in ways):
+        if near and all(np.sum((here.jacobian @ way) ** 2) > alike * here.square for way in ways):
             chosen.append(name)
     return chosen
 

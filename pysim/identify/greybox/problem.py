@@ -18,10 +18,9 @@ from pysim.identify.greybox.residuals import Channel, WeightedResiduals
 from pysim.identify.greybox.response_table import UNSPECIFIED_DB, UNSPECIFIED_DEG, ResponseTable, response_table
 from pysim.identify.greybox.runs import Simulation
 from pysim.identify.greybox.settings import NoiseSettings
-from pysim.identify.greybox.stepped_sines import stepped_sines, swing
+from pysim.identify.greybox.stepped_sines import stepped_sines, swing, unsettled
 from pysim.identify.greybox.time_log import time_logs
 from pysim.identify.greybox.treatment import Measurements, Treatment
-from pysim.identify.greybox.unsettled import unsettled
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Model, Note, NoteCode, Record
 from pysim.types.answer import FloorSource, NoiseFloor
 from pysim.types.record_kind import STEPPED_SINE

@@ -61,6 +61,12 @@ class FitSettings:
         "tied costs length and gains next to nothing",
         source="measured: fit-cost",
     )
+    alike: float = setting(
+        0.02,
+        unit="1",
+        meaning="share of the sum of squares by which rough searches may differ that are both gone on with",
+        source="chosen: five times `near`, where a rough search ends",
+    )
     level: float = setting(
         0.95, unit="1", meaning="of intervals", source="convention of the field; ISO/IEC Guide 98-3:2008, 6.2"
     )
@@ -218,4 +224,76 @@ class BeginningSettings:
         unit="nats",
         meaning="what a step of these must promise to be worth it",
         source="what a free number gains by chance in the mean (chi-squared of one degree over 2)",
+    )
+
+
+@dataclass(frozen=True)
+class RestSettings:
+    """How long a model is given to come to rest ahead of a log."""
+
+    periods: float = setting(
+        10.0,
+        unit="1",
+        meaning="periods of a table's slowest sine for which a model is watched, where no log says how long",
+        source="chosen: what has not died away by then is seen in no table",
+    )
+    looks: int = setting(
+        200,
+        unit="1",
+        meaning="times at which a disturbance is watched as it dies away, on a logarithmic scale",
+        source="chosen: each is 5 % later than the one before",
+    )
+    earliest: float = setting(
+        1e-4,
+        unit="1",
+        meaning="first of them, as a share of the longest log",
+        source="chosen: less than a sample of most logs",
+    )
+    still: float = setting(
+        1e-9,
+        unit="1",
+        meaning="share of its values that a model at rest may move by",
+        source="chosen: some million roundings of a double",
+    )
+    settled: float = setting(
+        0.01,
+        unit="1",
+        meaning="share of its largest effect on what is compared, below which a disturbance has died away",
+        source="convention of the field: settling within one percent",
+    )
+
+
+@dataclass(frozen=True)
+class SteadySettings:
+    """When a stepped sine counts as steady, and which of its harmonics count."""
+
+    unlike: float = setting(
+        5.0,
+        unit="1",
+        meaning="standard deviations by which a log's first period may differ from those after it",
+        source="a data set has some hundred numbers, and noise with memory puts more into slow ones than white noise",
+    )
+    also: float = setting(
+        2.5,
+        unit="1",
+        meaning="the same where another log of the data set differs by more than that",
+        source="chosen: half of it, for what one log shows the others are likely to have, too",
+    )
+    chance: float = setting(
+        1e-3,
+        unit="1",
+        meaning="probability that a harmonic which is not there stands out of the noise",
+        source="chosen: a log has a dozen harmonics",
+    )
+    patience: float = setting(
+        1000.0,
+        unit="1",
+        meaning="periods of a sine after which a model that does not repeat itself never will",
+        source="chosen: what dies away more slowly than that no bench waits for",
+    )
+    repeated: float = setting(
+        5e-4,
+        unit="1",
+        meaning="share of a swing by which two periods differ that are the same",
+        source="chosen: less than what a table tells",
     )

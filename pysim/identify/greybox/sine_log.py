@@ -9,14 +9,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.harmonics import harmonic_count, interpolation, regressors, to_complex
+from pysim.identify.greybox.settings import SteadySettings
 from pysim.identify.greybox.treatment import SinePlan
 from pysim.identify.logged import LoggedWave
 from pysim.types import BadInput, Record
 
 Array = NDArray[np.float64]
 
-
-_CHANCE = 1e-3  # of a harmonic that seems to be there and is not
+_SETTINGS = SteadySettings()
 
 
 @dataclass(frozen=True)
@@ -183,5 +183,5 @@ def _seen(values: Array, columns: Array) -> int:
     freedom, most = len(values) - columns.shape[1], columns.shape[1] // 2
     rest = np.maximum(np.sum(values**2, axis=0) - np.sum(parts**2, axis=0), 0.0) / freedom
     pairs = np.sum(parts[1:].reshape(most, 2, -1) ** 2, axis=1)
-    found = np.flatnonzero((pairs > -2 * np.log(_CHANCE) * rest).any(axis=1))
+    found = np.flatnonzero((pairs > -2 * np.log(_SETTINGS.chance) * rest).any(axis=1))
     return int(found[-1]) + 1 if found.size else 0

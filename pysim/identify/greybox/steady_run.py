@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from pysim.identify.greybox.context import Context
 from pysim.identify.greybox.observation import Run
+from pysim.identify.greybox.settings import SteadySettings
 from pysim.identify.greybox.sine_log import Sine
 from pysim.identify.greybox.time_log import from_rest
 from pysim.simulate import Periodic, Rodas, simulate
@@ -17,9 +18,7 @@ from pysim.types import Experiment, Model, Outcome, Signal, SineTest
 
 Array = NDArray[np.float64]
 
-# Periods of a sine after which a model that has not settled never will, and the share of a swing by which two periods
-# differ that are the same.
-_PATIENCE, _REPEATED = 1000.0, 5e-4
+_SETTINGS = SteadySettings()
 
 
 def steady_run(
@@ -78,7 +77,7 @@ def settled_run(context: Context, source: str, test: SineTest, sine: Sine) -> Ru
     planned = context.settling if planned is None else planned
     if context.treatment.steady == "transient":
         settle = planned
-        while settle * sine.frequency < _PATIENCE:
+        while settle * sine.frequency < _SETTINGS.patience:
             if _repeats(context.model, run(settle).experiment, 1 / sine.frequency):
                 return run(2 * settle)
             settle = 2 * max(settle, 1 / sine.frequency)
@@ -92,4 +91,4 @@ def _repeats(model: Model, experiment: Experiment, period: float) -> bool:
     if record.outcome is not Outcome.DONE:
         return False
     first, second = np.split(record.values, 2)
-    return bool(np.max(np.abs(second - first)) <= _REPEATED * np.ptp(second))
+    return bool(np.max(np.abs(second - first)) <= _SETTINGS.repeated * np.ptp(second))

@@ -15,11 +15,11 @@ from pysim.identify.greybox.harmonics import interpolation
 from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind, SensorErrors, gains
 from pysim.identify.greybox.observation import Measure, Run, Simulated
 from pysim.identify.greybox.response import LogResponse, beside_measured, log_response, thesis_deviation
+from pysim.identify.greybox.settings import SteadySettings
 from pysim.identify.greybox.sine_log import Sine, SineLog, sine_log, steady_sine
 from pysim.identify.greybox.steady_run import steady_run
 from pysim.identify.greybox.time_log import kept_columns
 from pysim.identify.greybox.treatment import SinePlan
-from pysim.identify.greybox.unsettled import UNLIKE
 from pysim.identify.logged import logged_wave
 from pysim.types import (
     FrequencyResponse,
@@ -35,6 +35,8 @@ from pysim.types import (
 from pysim.types.record_kind import STEPPED_SINE
 
 Array = NDArray[np.float64]
+
+_SETTINGS = SteadySettings()
 
 
 @dataclass(frozen=True)
@@ -251,10 +253,19 @@ def _settled(source: str, data: Record, sine: Sine, noise: tuple[float, ...], pl
     if plan.settle_time is not None:
         return log
     most = plan.settle_periods + log.periods // 2
-    while log.unlike > UNLIKE and plan.settle_periods < most:
+    while log.unlike > _SETTINGS.unlike and plan.settle_periods < most:
         plan = replace(plan, settle_periods=min(plan.settle_periods + max(log.periods // 10, 1), most))
         log = sine_log(source, data, sine, noise, plan, index=index)
     return log
+
+
+def unsettled(logs: Sequence[SineLog]) -> list[bool]:
+    """Of each log of a data set, whether the plant had not settled when its compared periods began: none of its periods
+    stands for all.
+    """
+    away = [log.unlike for log in logs]
+    limit = _SETTINGS.also if max(away, default=0.0) > _SETTINGS.unlike else _SETTINGS.unlike
+    return [z > limit for z in away]
 
 
 def stepped_sines(context: Context, swings: Sequence[Swing]) -> list[SteppedSines]:
