@@ -93,7 +93,8 @@ def _model(desk: Desk) -> None:
 
 
 def _use(desk: Desk, name: str) -> None:
-    if attempt(lambda: desk.project.change(model=desk.project.model_name(name), added=())):
+    project = desk.project
+    if attempt(lambda: project.use_model(project.model_name(name), project.settings().libraries)):
         background_tasks.create(desk.read_model())
 
 

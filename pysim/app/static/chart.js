@@ -88,6 +88,19 @@ export default {
         if (this.series && this.range) await this.fetch(this.range);
       }
     },
+    follow(y, traces, number) {
+      this.next = { y, traces, number };
+      this.following ??= this.catchUp().finally(() => (this.following = null));
+    },
+    async catchUp() {
+      while (this.next && this.$el.isConnected) {
+        const { y, traces, number } = this.next;
+        this.next = null;
+        if (!this.drawn) await this.drawing;
+        await this.turn(() => this.Plotly.restyle(this.$el, { y }, traces));
+        this.$el.dataset.move = number;
+      }
+    },
     moved(change) {
       if (!this.series) return;
       const keys = Object.keys(change);

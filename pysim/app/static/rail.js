@@ -10,3 +10,14 @@ setInterval(() => {
     if (here) document.title = `${link.querySelector(".name").textContent} – Workbench`;
   }
 }, 150);
+
+// Keys that count everywhere but where something is being typed.
+document.addEventListener("keydown", (event) => {
+  if (event.target.matches?.("textarea, input:not([type=range], [type=checkbox])")) return;
+  const key = event.key.toLowerCase();
+  const command = event.ctrlKey || event.metaKey;
+  const name = !command ? { "?": "help" }[key] : key === "z" ? (event.shiftKey ? "redo" : "undo") : { y: "redo" }[key];
+  if (!name || event.altKey) return;
+  event.preventDefault();
+  emitEvent(name);
+});
