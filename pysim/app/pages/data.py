@@ -67,7 +67,11 @@ def _model(desk: Desk) -> None:
     with card("Model"):
         with box("row"):
             names = list(dict.fromkeys([*MODELS, *([settings.model] if settings.model else [])]))
-            field = ui.input(value=settings.model, autocomplete=names).props("dense outlined").style("min-width: 430px")
+            field = (
+                ui.input(value=settings.model, autocomplete=names)
+                .props("dense outlined")
+                .style("width: 430px; max-width: 100%")
+            )
             field.props('aria-label="Modelica class, or the name of an .fmu below model"')
             off = "Wait until the running work has ended" if desk.runner.running else ""
             button("Use this model", lambda: _use(desk, str(field.value)), "" if settings.model else "main", off=off)

@@ -60,7 +60,7 @@ def shell(desk: Desk) -> None:
                 text("span", "Workbench")
             live(lambda: desk.version, lambda: _what(desk), "what")
             live(lambda: (desk.version, desk.runner.running is None), lambda: _job(desk))
-            live(lambda: (len(desk.history.past), len(desk.history.future)), lambda: _undo(desk), "row tight-row")
+            live(lambda: (len(desk.history.past), len(desk.history.future)), lambda: _undo(desk), "turns")
             live(lambda: desk.project.settings().look, lambda: _look_button(desk))
             button("? Help", turn, "quiet")
         with box("rail", "nav").props('aria-label="Steps"'):

@@ -27,7 +27,7 @@ function settings(series) {
 }
 
 export default {
-  template: `<div class="chart" role="img" :aria-label="label" :tabindex="series ? 0 : -1" @keydown="key"></div>`,
+  template: `<div class="chart" :role="series ? 'group' : 'img'" :aria-label="label" :tabindex="series ? 0 : -1" @keydown="key"></div>`,
   props: { figure: Object, series: Object, label: String, stamp: Number },
   async mounted() {
     const { Plotly } = await import("nicegui-plotly");

@@ -144,6 +144,31 @@ def test_it_can_be_used_without_a_mouse(shown: Shown, address: str) -> None:
     assert tab.errors == []
 
 
+WIDE = """() => {
+    const page = document.querySelector("#page"), right = page.getBoundingClientRect().right + 1;
+    const scrolls = (e) => ["auto", "scroll", "hidden"].includes(getComputedStyle(e).overflowX);
+    const inside = (e) => e.parentElement !== page && (scrolls(e.parentElement) || inside(e.parentElement));
+    const out = (e) => e.getBoundingClientRect().width && e.getBoundingClientRect().right > right && !inside(e);
+    return [...page.querySelectorAll(".page *")].filter(out).map((e) => `${e.tagName} ${e.textContent.slice(0, 40)}`);
+}"""
+PATHS = ("/", "/model", "/compare", "/locate", "/candidates", "/add", "/take")
+
+
+@pytest.mark.parametrize("width", [420, 800, 1440])
+def test_nothing_sticks_out_and_what_reads_aloud_knows_the_page(width: int, shown: Shown, address: str) -> None:
+    tab = Tab(shown, address)
+    tab.page.set_viewport_size({"width": width, "height": 800})
+    for path in PATHS:
+        tab.page.locator(f".rail a[href='{path}']").click()
+        tab.page.wait_for_selector(f".rail a[href='{path}'][aria-current=page]")
+        assert tab.page.evaluate(WIDE) == [], path
+        assert tab.page.evaluate("document.documentElement.lang") == "en"
+        assert tab.page.locator("main").count() == 1
+        unnamed = "input:not([aria-label]):not([id]), select:not([aria-label])"
+        assert tab.page.locator(unnamed).count() == 0
+    assert tab.errors == []
+
+
 def test_light_and_dark_follow_the_system_and_the_choice(shown: Shown, address: str) -> None:
     dark = Tab(shown, address, color_scheme="dark")
     paper = "getComputedStyle(document.body).backgroundColor"
