@@ -1,13 +1,18 @@
 // The link of the page that is shown, going back included; the new page begins at its top and is announced by its title.
+// The title also says that work goes on, and that it is done, until somebody looks.
 let shown = location.pathname;
+let mark = "";
 setInterval(() => {
   if (shown !== location.pathname) document.getElementById("page")?.scrollTo({ top: 0, behavior: "instant" });
   shown = location.pathname;
+  if (document.querySelector(".job")) mark = "… ";
+  else if (mark === "… ") mark = document.hidden ? "✓ " : "";
+  else if (!document.hidden) mark = "";
   for (const link of document.querySelectorAll(".rail a")) {
     const here = link.getAttribute("href") === location.pathname;
     if (here) link.setAttribute("aria-current", "page");
     else link.removeAttribute("aria-current");
-    if (here) document.title = `${link.querySelector(".name").textContent} – Workbench`;
+    if (here) document.title = `${mark}${link.querySelector(".name").textContent} – Workbench`;
   }
 }, 150);
 
