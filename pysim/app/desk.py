@@ -215,6 +215,18 @@ class Desk:
         self.project.change(added=())
         self.changed()
 
+    def bring_back(self, earlier: Path) -> None:
+        """Take a data set that others took the place of; the one that is there now becomes an earlier one.
+
+        Raises:
+            BadInput: work is running, or another program has a file of it.
+        """
+        self._free_to_change()
+        self.project.replace_data(earlier)
+        self.project.change(added=())
+        self.history.begin_anew()
+        self.changed()
+
     def _free_to_change(self) -> None:
         if self.runner.running is not None:
             raise BadInput("wait until the running work has ended, or stop it")

@@ -216,6 +216,11 @@ class Project:
         move_all([*before, (folder, self.data)])
         return self._told(place)
 
+    def earlier_data(self) -> list[Path]:
+        """Data sets in whose place others were dropped, the last one first."""
+        found = (self.folder / "earlier").glob("data-*/dataset.toml")
+        return sorted((path.parent for path in found), key=lambda path: -int(path.name.rpartition("-")[2]))
+
     def replace_models(self, paths: Sequence[Path]) -> str:
         """Take files and folders, each of another name, into `model`; those of the same names are kept as data are.
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from nicegui import background_tasks, ui
@@ -38,6 +39,7 @@ def data_page(desk: Desk) -> None:
     live(lambda: desk.version, lambda: _model(desk), "gap")
     live(lambda: desk.version, lambda: _data(desk), "gap")
     live(lambda: (desk.version, preview.get("record")), lambda: _records(desk, preview), "gap")
+    live(lambda: desk.version, lambda: _earlier(desk), "gap")
     live(lambda: desk.version, lambda: projects(desk) if desk.project.empty else None, "gap")
 
 
@@ -223,6 +225,25 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
                 overlay.figure(), f"{log.source} over time", height=110 + 130 * len(overlay.names),
                 series={**series, "span": overlay.span, "most": MOST},
             )  # fmt: skip
+
+
+def _earlier(desk: Desk) -> None:
+    """Data sets that a drop took the place of."""
+    earlier = desk.project.earlier_data()
+    if not earlier:
+        return
+    with card("Earlier data sets"), box("tight"):
+        for folder in earlier:
+            with box("row"):
+                off = "Wait until the running work has ended" if desk.runner.running else ""
+                button(f"Bring back {folder.name}", partial(_bring_back, desk, folder), "small", off=off)
+                logs = sum(path.is_file() for path in folder.rglob("*")) - 1
+                text("span", f"{counted(logs, 'file')} beside its dataset.toml", "small")
+
+
+def _bring_back(desk: Desk, folder: Path) -> None:
+    if attempt(lambda: desk.bring_back(folder)):
+        background_tasks.create(desk.read_data())
 
 
 def _log_number(check: DataCheck, row: int) -> int | None:

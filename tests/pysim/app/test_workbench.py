@@ -181,6 +181,26 @@ def test_light_and_dark_follow_the_system_and_the_choice(shown: Shown, address: 
     dark.page.get_by_title(re.compile("Look: auto")).wait_for()
 
 
+def test_a_data_set_that_another_took_the_place_of_is_brought_back(
+    shown: Shown, show: Show, dropped: Path, tmp_path: Path
+) -> None:
+    (dropped / "dataset.toml").write_text(described("first", "good"))
+    tab = Tab(shown, show(tmp_path / "project"), artefacts())
+    tab.drop("folder", dropped)
+    tab.see("2 records, 0 held out")
+    before = {path.name: path.read_bytes() for path in (tmp_path / "project/data").iterdir()}
+    (dropped / "dataset.toml").write_text(described("first"))
+    tab.drop("folder", dropped)
+    tab.see("1 record, 0 held out")
+    tab.press("Bring back data-1")
+    tab.see("2 records, 0 held out")
+    assert {path.name: path.read_bytes() for path in (tmp_path / "project/data").iterdir()} == before
+    tab.shot("earlier")
+    tab.press("Bring back data-2")  # and forth
+    tab.see("1 record, 0 held out")
+    assert tab.errors == []
+
+
 def test_a_wrong_file_is_refused_in_a_sentence(shown: Shown, address: str, tmp_path: Path) -> None:
     (tmp_path / "picture.jpg").write_bytes(b"\xff\xd8")
     tab = Tab(shown, address)
