@@ -203,9 +203,13 @@ def test_a_data_set_that_another_took_the_place_of_is_brought_back(
 
 def test_a_wrong_file_is_refused_in_a_sentence(shown: Shown, address: str, tmp_path: Path) -> None:
     (tmp_path / "picture.jpg").write_bytes(b"\xff\xd8")
-    tab = Tab(shown, address)
+    tab = Tab(shown, address, artefacts())
     tab.drop("files", tmp_path / "picture.jpg")
     tab.see("no data set, no logs and no model in this: .jpg; drop logs as .txt")
+    toast, links = tab.page.locator(".q-notification").bounding_box(), tab.page.locator(".rail a").all()
+    tab.shot("toast")
+    assert toast["x"] + toast["width"] <= 212  # over the empty end of the rail: it covers no control
+    assert max(one.bounding_box()["y"] + one.bounding_box()["height"] for one in links) <= toast["y"]
     with zipfile.ZipFile(tmp_path / "sly.zip", "w") as archive:
         archive.writestr("../../outside.txt", "0 1 2")
     tab.drop("files", tmp_path / "sly.zip")
