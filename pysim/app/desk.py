@@ -12,6 +12,7 @@ from typing import Any
 from nicegui import run
 
 from pysim.app.answers import Answers
+from pysim.app.history import History
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
 from pysim.app.project import Project
 from pysim.app.upload import Batch, Limits
@@ -75,9 +76,13 @@ class Desk:
     batches: dict[str, Batch] = field(default_factory=dict)
     taking: bool = False
     draft: dict[str, Any] = field(default_factory=dict)
+    history: History = field(init=False)
     _answers: tuple[int, Answers] | None = None
     _build: int = 0  # number of the newest one
     _reading: int = 0  # the same
+
+    def __post_init__(self) -> None:
+        self.history = History(self.project)
 
     def changed(self) -> None:
         """Something that pages show is other than before."""
@@ -119,6 +124,7 @@ class Desk:
             self.trouble = str(error) or "the example was not made; open it again"
         finally:
             self.doing = ""
+            self.history.begin_anew()
             self.changed()
         await self.read()
         if not self.trouble and not self.model_trouble:
@@ -132,7 +138,10 @@ class Desk:
         return self._answers[1]
 
     def tick(self) -> None:
-        """Look after the running job."""
+        """Look after the running job, and after what was chosen."""
+        steps = len(self.history.past)
+        self.history.look()
+        self.beat += len(self.history.past) != steps
         before = self.runner.running
         if not self.runner.poll():
             return
@@ -185,10 +194,65 @@ class Desk:
         else:
             self.start(adding(self.project, added))
 
+    def change(self, **settings: Any) -> None:
+        """Choose something else, of what results depend on.
+
+        Raises:
+            BadInput: work is running.
+        """
+        self._free_to_change()
+        self.project.change(**settings, added=())
+        self.changed()
+
+    def set_values(self, values: Mapping[str, float]) -> None:
+        """Give parameters other values than the model has.
+
+        Raises:
+            BadInput: work is running.
+        """
+        self._free_to_change()
+        self.project.set_values(values)
+        self.project.change(added=())
+        self.changed()
+
+    def bring_back(self, earlier: Path) -> None:
+        """Take a data set that others took the place of; the one that is there now becomes an earlier one.
+
+        Raises:
+            BadInput: work is running, or another program has a file of it.
+        """
+        self._free_to_change()
+        self.project.replace_data(earlier)
+        self.project.change(added=())
+        self.history.begin_anew()
+        self.changed()
+
+    def _free_to_change(self) -> None:
+        if self.runner.running is not None:
+            raise BadInput("wait until the running work has ended, or stop it")
+
     def undo(self) -> None:
         """Without the last effect."""
         self.project.change(added=self.project.settings().added[:-1])
         self.changed()
+
+    async def turn_back(self, step: Callable[[], None]) -> None:
+        """Undo, or redo, what was chosen.
+
+        Args:
+            step: of the history.
+        """
+        if self.runner.running is not None or self.taking or self.doing:
+            return
+        before, described = self.project.settings(), self.project.description
+        data = described.read_bytes() if described.is_file() else b""
+        step()
+        after = self.project.settings()
+        self.changed()
+        if (described.read_bytes() if described.is_file() else b"") != data:
+            await self.read_data()
+        if (before.model, before.libraries) != (after.model, after.libraries):
+            await self.read_model()
 
     def unfinished(self) -> Job | None:
         """The newest job that was stopped and could go on, of the data and the model as they are."""

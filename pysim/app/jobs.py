@@ -14,7 +14,7 @@ from typing import Any
 
 from pysim.app.disk import remove
 from pysim.app.processes import Started, last_words
-from pysim.app.project import Project
+from pysim.app.project import VALUES, Project
 from pysim.app.worker import TASKS, Ended, Worker
 from pysim.io import write_file
 from pysim.types import BadInput
@@ -99,6 +99,7 @@ def works(project: Project) -> dict[str, Work]:
         raise BadInput("no data set yet; drop one on the page Data")
     more = [word for library in settings.libraries for word in ("--library", library)]
     more += ["--free", ",".join(settings.free)] if settings.free else []
+    more += ["--parameters", VALUES] if project.values() else []
     behind = ["data", "--model", settings.model, *more]
     return {
         "compare": _work("compare", "Compare and refit", [*behind, "--refit"]),

@@ -54,6 +54,36 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         self._props["stamp"] += 1
         self.update()
 
+    def follow(self, ys: Sequence[Sequence[float]], traces: Sequence[int], number: int) -> None:
+        """Other heights of some lines; the last of several moves is the one that is drawn."""
+        self.run_method("follow", ys, traces, number)
+
+
+class Sliders(Element, component=str(_STATIC / "sliders.js")):
+    """Parameters with a number, a slider and a tick each.
+
+    Args:
+        rows: `name`, `about`, `value`, `unit`, `min`, `max`, `slides` (whether it has both), and `fitted`.
+        on_move: gets the name, the value, and whether it was let go.
+        on_fit: gets the name, and whether a fit may change it.
+    """
+
+    def __init__(
+        self,
+        rows: Sequence[Mapping[str, Any]],
+        on_move: Callable[[str, float, bool], Any],
+        on_fit: Callable[[str, bool], Any],
+    ) -> None:
+        super().__init__()
+        self._props["rows"] = list(rows)
+        self.on("move", lambda event: on_move(*(event.args[key] for key in ("name", "value", "done"))))
+        self.on("fit", lambda event: on_fit(event.args["name"], event.args["on"]))
+
+    def show(self, rows: Sequence[Mapping[str, Any]]) -> None:
+        """Other values."""
+        self._props["rows"] = list(rows)
+        self.update()
+
 
 class Table(Element, component=str(_STATIC / "table.js")):
     """Rows of texts.
@@ -213,7 +243,7 @@ def note(words: str, kind: str = "") -> None:
 def say(words: str, *, bad: bool = False) -> None:
     """A sentence that goes away by itself; an error stays until it is read."""
     kind = {"type": "negative", "timeout": 0, "close_button": "Close"} if bad else {"type": "positive", "timeout": 3500}
-    ui.notify(words, position="bottom", multi_line=True, **kind)  # type: ignore[arg-type]
+    ui.notify(words, position="bottom-left", multi_line=True, **kind)  # type: ignore[arg-type]
 
 
 def live(key: Callable[[], object], build: Callable[[], Any], kind: str = "") -> Element:

@@ -7,18 +7,18 @@ import hashlib
 import os
 import re
 import tomllib
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
 from typing import Any
 
 from pysim.app.disk import move_all
 from pysim.app.lock import LOCK
-from pysim.io import toml_table, write_file
+from pysim.io import read_toml, toml_key, toml_table, write_file
 from pysim.types import BadInput
 
-_SETTINGS = "project.toml"
-_OWN = (_SETTINGS, "data", "model", "earlier", "uploads", "results", LOCK)
+_SETTINGS, VALUES = "project.toml", "parameters.toml"
+_OWN = (_SETTINGS, VALUES, "data", "model", "earlier", "uploads", "results", LOCK)
 LOOKS = ("auto", "light", "dark")
 
 
@@ -90,6 +90,11 @@ class Project:
         return self.data / "dataset.toml"
 
     @property
+    def choices(self) -> tuple[Path, ...]:
+        """Files in which the user's choices stand."""
+        return self.folder / _SETTINGS, self.folder / VALUES, self.description
+
+    @property
     def empty(self) -> bool:
         """Whether nothing was dropped or named yet."""
         return not self.data.exists() and not self.settings().model
@@ -128,6 +133,34 @@ class Project:
         self.save(settings)
         return settings
 
+    def values(self) -> dict[str, float]:
+        """Parameters that differ from the model's own, in their units, as `--parameters` takes them.
+
+        Raises:
+            BadInput: a file that somebody broke.
+        """
+        path = self.folder / VALUES
+        if not path.is_file():
+            return {}
+        found = read_toml(path, VALUES, "write lines NAME = VALUE").whole.values
+        if not all(isinstance(value, int | float) for value in found.values()):
+            raise BadInput(f"{path}: a value is no number; write lines NAME = VALUE, or remove the file")
+        return {name: float(value) for name, value in found.items()}
+
+    def set_values(self, values: Mapping[str, float]) -> None:
+        """Write them; none at all leaves no file."""
+        if values:
+            write_file(self.folder / VALUES, toml_table("# of pysim app", {toml_key(k): v for k, v in values.items()}))
+        else:
+            (self.folder / VALUES).unlink(missing_ok=True)
+
+    def use_model(self, name: str, libraries: tuple[str, ...]) -> None:
+        """Another model, with its own values and nothing added."""
+        if name != self.settings().model:
+            self.set_values({})
+            self.change(free=())
+        self.change(model=name, libraries=libraries, added=())
+
     def model_name(self, name: str) -> str:
         """What the settings call the model that a user names: `Pump.fmu` may lie below `model/`."""
         name = name.strip()
@@ -136,10 +169,15 @@ class Project:
         return below.relative_to(self.folder).as_posix() if bare else name
 
     def fingerprint(self) -> str:
-        """Of all that a result depends on: data, model and what may be refitted; of files their sizes and times."""
+        """Of all that a result depends on: data, model, what may be refitted, and from which values."""
         settings = self.settings()
-        digest = hashlib.sha256(repr((settings.model, settings.libraries, settings.free)).encode())
-        for name, path in (*_below(self.data), *_below(self.models), *self._elsewhere(settings)):
+        chosen = (settings.model, settings.libraries, settings.free, *sorted(self.values().items()))
+        return hashlib.sha256(repr((chosen, self.files())).encode()).hexdigest()
+
+    def files(self) -> str:
+        """Of data, model and libraries, by sizes and times."""
+        digest = hashlib.sha256()
+        for name, path in (*_below(self.data), *_below(self.models), *self._elsewhere(self.settings())):
             stat = path.stat()
             digest.update(repr((name, stat.st_size, stat.st_mtime_ns)).encode())
         return digest.hexdigest()
@@ -177,6 +215,11 @@ class Project:
         before = [] if place is None else [(self.data, place)]
         move_all([*before, (folder, self.data)])
         return self._told(place)
+
+    def earlier_data(self) -> list[Path]:
+        """Data sets in whose place others were dropped, the last one first."""
+        found = (self.folder / "earlier").glob("data-*/dataset.toml")
+        return sorted((path.parent for path in found), key=lambda path: -int(path.name.rpartition("-")[2]))
 
     def replace_models(self, paths: Sequence[Path]) -> str:
         """Take files and folders, each of another name, into `model`; those of the same names are kept as data are.

@@ -241,6 +241,7 @@ def _routes(desk: Desk) -> None:
             if adopted is None:
                 return PlainTextResponse("the server is ending; start it again, then drop it again", 503)
             _choose(desk.project, adopted)
+            desk.history.begin_anew()
         except BadInput as error:
             return PlainTextResponse(str(error), 422)
         except OSError as error:
@@ -277,7 +278,7 @@ def _choose(project: Project, adopted: Adopted) -> None:
     """What was dropped is what is worked with from now on."""
     settings = project.settings()
     libraries = tuple(dict.fromkeys((*settings.libraries, *adopted.libraries)))
-    project.change(model=adopted.model or settings.model, libraries=libraries, added=())
+    project.use_model(adopted.model or settings.model, libraries)
 
 
 def overlay_of(desk: Desk, of: str, record: int) -> Overlay | None:

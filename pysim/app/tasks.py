@@ -9,11 +9,12 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from pysim.app.followed import Followed
 from pysim.app.jobs import ANSWER, EVENTS, OUTPUT, RECORDS, REPORT, Work, read_job
 from pysim.app.project import Project
 from pysim.app.worker import said_in
 from pysim.diagnosis import Session, Settings, add, compare, diagnose, learn, rank
-from pysim.io import write_file, write_stages
+from pysim.io import in_model_units, write_file, write_stages
 from pysim.nouns.example import EXAMPLES, example_folder
 from pysim.present import data, write_report
 from pysim.present.diagnosis import Diagnosed, files
@@ -57,6 +58,7 @@ class Tasks:
         self._of = ""  # the fingerprint of what is kept
         self._parts: SessionParts | None = None
         self._found: dict[str, Diagnosed] = {}
+        self._followed: tuple[Any, ...] = ()
 
     def model(self) -> dict[str, Any]:
         """What the project's model holds, as `pysim model --json` says it."""
@@ -76,7 +78,17 @@ class Tasks:
             shutil.copy(library, coming)
         self._project.replace_models([coming / library.name for library in own.libraries])
         names = tuple(f"model/{library.name}" for library in own.libraries)
-        self._project.change(model=own.model, libraries=names, added=())
+        self._project.use_model(own.model, names)
+
+    def curves(self, number: int, values: Mapping[str, float]) -> dict[str, Any]:
+        """A log of the data set beside the model with these values of its parameters."""
+        settings = self._project.settings()
+        key = (number, settings.model, settings.libraries, self._project.files())
+        if not self._followed or self._followed[0] != key:
+            model = model_of(settings.model, [Path(one) for one in settings.libraries])
+            dataset = in_model_units(data_of(Path("data")), model)
+            self._followed = (key, Followed.of(model, dataset, number, values))
+        return dict(self._followed[1].curves(values))
 
     def step(self, work: Work) -> None:
         """Do a piece of work, with its numbers in the folder of its result."""
@@ -116,7 +128,7 @@ class Tasks:
             measured = data_of(Path("data"))
             self._parts = session_parts(
                 model_of(settings.model, libraries), measured, libraries=libraries, free=settings.free,
-                bounds={}, values={}, reference_hz=reference_of(measured.responses()),
+                bounds={}, values=self._project.values(), reference_hz=reference_of(measured.responses()),
             )  # fmt: skip
             self._of, self._found = now, {}
         return self._parts

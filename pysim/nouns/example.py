@@ -115,7 +115,7 @@ def logs(name: str) -> Dataset:
         command = _command(own, rng)
         drives = {own.command: command}
         run = Experiment(times, tuple(own.noise), drives, other, start=-1.0, rates=machine.rate_inputs(drives))
-        clean = simulate(machine, run, solver=Rodas(rtol=1e-7, atol=1e-9))
+        clean = simulate(machine, run, solver=Rodas(rtol=1e-7, atol=1e-7))
         read = [clean[name] + sd * rng.standard_normal(times.size) for name, sd in own.noise.items()]
         values = np.column_stack([command.value(times), *read])
         log = Record(times, values, tuple(units), tuple(units.values()), origin="simulated, with noise")
@@ -128,7 +128,7 @@ def logs(name: str) -> Dataset:
 def _command(own: Example, rng: np.random.Generator) -> Signal:
     """A smooth random wave from 0 at rest."""
     middle, sd, lowest, highest = own.wave
-    knots = np.linspace(0.0, own.seconds * (1 + 2 / _KNOTS), _KNOTS + 3)
+    knots = np.linspace(0.0, own.seconds * (1 + 1 / _KNOTS), _KNOTS + 2)
     values: NDArray[np.float64] = middle + sd * rng.standard_normal(knots.size)
     values[:2] = 0.0
     return Signal.through(knots, np.clip(values, lowest, highest))

@@ -7,7 +7,7 @@ from typing import Any
 
 from pysim.app.answers import Answer, history
 from pysim.app.desk import Desk
-from pysim.app.pages.common import attempt, busy, ended, nothing, start
+from pysim.app.pages.common import attempt, busy, doubts, ended, nothing, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, note, text
 from pysim.present.criteria import CRITERIA
 from pysim.present.diagnosis.figures.criteria import criteria_chart
@@ -38,6 +38,7 @@ def _top(desk: Desk) -> None:
             button("Find what is missing", lambda: start(desk, lambda: desk.work("diagnose")), "main", off=busy(desk))
             text("span", "or try a candidate on the page Candidates", "small")
     if answer is not None:
+        doubts(answer)
         _chain(desk, settings.added)
 
 
@@ -104,14 +105,8 @@ def _below(desk: Desk) -> None:
         return
     _criteria(answer, settings.added)
     _parameters(answer)
-    for line in doubts(answer):
-        note(line)
-
-
-def doubts(answer: Answer) -> list[str]:
-    """Why not to trust the last model, and what was assumed, each once."""
-    warnings = answer.data.get("warnings", {}).get(answer.last["step"], ())  # none in answers of an earlier version
-    return list(dict.fromkeys(map(str, [*warnings, *(one["text"] for one in answer.data["notes"])])))
+    for one in answer.data["notes"]:
+        note(str(one["text"]))
 
 
 def _criteria(answer: Answer, added: Sequence[str]) -> None:
@@ -177,10 +172,13 @@ def _parameters(answer: Answer) -> None:
         Table("Parameters", columns, rows)
 
 
-def _three(e: Mapping[str, Any] | None) -> list[str]:
+def _three(e: Mapping[str, Any] | None) -> list[Any]:
     if e is None:
         return ["", "", ""]
-    return [_number(e["value"]), *((_number(e["low"]), _number(e["high"])) if e["determined"] else ("–", "–"))]
+    value: Any = _number(e["value"])
+    if e["value"] in (e["lower"], e["upper"]):
+        value = {"text": f"{value} AT BOUND", "value": e["value"], "mark": "high"}
+    return [value, *((_number(e["low"]), _number(e["high"])) if e["determined"] else ("–", "–"))]
 
 
 def _point(e: Mapping[str, Any] | None) -> tuple[float, float, float] | None:

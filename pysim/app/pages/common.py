@@ -8,6 +8,7 @@ from typing import Any
 
 from nicegui import ui
 
+from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.disk import disk_trouble
 from pysim.app.jobs import FAILED, STOPPED, Work
@@ -66,6 +67,16 @@ def ended(desk: Desk) -> None:
         with box("note row end"):
             text("span", f"{job.work.title} was stopped; what it had found is kept.")
             button("Go on", lambda: attempt(lambda: desk.start(job.work)), "small", off=busy(desk))
+
+
+def doubts(answer: Answer) -> None:
+    """A banner in red that says why the last fit is not to be believed; nothing where it is."""
+    found = answer.data.get("warnings", {}).get(answer.last["step"], ())  # none in answers of an earlier version
+    if found:
+        with box("note bad").props('role="alert"'):
+            text("b", "Do not believe this fit")
+            for line in dict.fromkeys(map(str, found)):
+                text("p", line)
 
 
 def nothing(title: str, words: str) -> None:

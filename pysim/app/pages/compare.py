@@ -12,7 +12,7 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.error_map import ErrorMap, error_maps
-from pysim.app.pages.common import busy, ended, nothing, segments, start
+from pysim.app.pages.common import busy, doubts, ended, nothing, segments, start
 from pysim.app.parts import Chart, Table, box, button, card, head, live, quantity, text
 from pysim.app.records import MOST, compared_overlay, measured_overlay, stage_keys
 from pysim.app.working_point import command_unit, response_unit, working_point
@@ -58,6 +58,8 @@ def _top(desk: Desk) -> None:
         "Every log beside the model; residuals in standard deviations of the noise.",
     )
     ended(desk)
+    if answer is not None:
+        doubts(answer)
     with box("row"):
         kind = "main" if answer is None else ""
         button("Compare and refit", lambda: start(desk, lambda: desk.work("compare")), kind, off=busy(desk))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from pathlib import Path
 from typing import Any
 
 from nicegui import background_tasks, ui
@@ -38,6 +39,7 @@ def data_page(desk: Desk) -> None:
     live(lambda: desk.version, lambda: _model(desk), "gap")
     live(lambda: desk.version, lambda: _data(desk), "gap")
     live(lambda: (desk.version, preview.get("record")), lambda: _records(desk, preview), "gap")
+    live(lambda: desk.version, lambda: _earlier(desk), "gap")
     live(lambda: desk.version, lambda: projects(desk) if desk.project.empty else None, "gap")
 
 
@@ -67,7 +69,11 @@ def _model(desk: Desk) -> None:
     with card("Model"):
         with box("row"):
             names = list(dict.fromkeys([*MODELS, *([settings.model] if settings.model else [])]))
-            field = ui.input(value=settings.model, autocomplete=names).props("dense outlined").style("min-width: 430px")
+            field = (
+                ui.input(value=settings.model, autocomplete=names)
+                .props("dense outlined")
+                .style("width: 430px; max-width: 100%")
+            )
             field.props('aria-label="Modelica class, or the name of an .fmu below model"')
             off = "Wait until the running work has ended" if desk.runner.running else ""
             button("Use this model", lambda: _use(desk, str(field.value)), "" if settings.model else "main", off=off)
@@ -93,7 +99,8 @@ def _model(desk: Desk) -> None:
 
 
 def _use(desk: Desk, name: str) -> None:
-    if attempt(lambda: desk.project.change(model=desk.project.model_name(name), added=())):
+    project = desk.project
+    if attempt(lambda: project.use_model(project.model_name(name), project.settings().libraries)):
         background_tasks.create(desk.read_model())
 
 
@@ -218,6 +225,25 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
                 overlay.figure(), f"{log.source} over time", height=110 + 130 * len(overlay.names),
                 series={**series, "span": overlay.span, "most": MOST},
             )  # fmt: skip
+
+
+def _earlier(desk: Desk) -> None:
+    """Data sets that a drop took the place of."""
+    earlier = desk.project.earlier_data()
+    if not earlier:
+        return
+    with card("Earlier data sets"), box("tight"):
+        for folder in earlier:
+            with box("row"):
+                off = "Wait until the running work has ended" if desk.runner.running else ""
+                button(f"Bring back {folder.name}", partial(_bring_back, desk, folder), "small", off=off)
+                logs = sum(path.is_file() for path in folder.rglob("*")) - 1
+                text("span", f"{counted(logs, 'file')} beside its dataset.toml", "small")
+
+
+def _bring_back(desk: Desk, folder: Path) -> None:
+    if attempt(lambda: desk.bring_back(folder)):
+        background_tasks.create(desk.read_data())
 
 
 def _log_number(check: DataCheck, row: int) -> int | None:

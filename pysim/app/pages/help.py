@@ -14,6 +14,11 @@ _ABOUT = {
         "Name a Modelica class, or drop an .fmu or a library.",
         "Logs that are held out are never fitted. They show how well the model predicts.",
     ),
+    "/model": (
+        "Move a slider. One log is simulated again at once; the curves and the residual follow.",
+        "Where you let go is kept in parameters.toml. Fits and searches begin there.",
+        "A log begins where it was estimated to begin with the first values that were shown.",
+    ),
     "/compare": (
         "Every log beside the model. Residuals are in standard deviations of the noise: 1 means only noise is left.",
         "Click a cell of the map to open its log. Drag in a figure to zoom, double click to see all.",
@@ -31,6 +36,7 @@ _ABOUT = {
 }
 _KEYS = (
     ("Tab, Enter", "reach and press everything"),
+    ("Ctrl+Z, Ctrl+Y", "undo and redo what was chosen"),
     ("?", "show or hide this help"),
     ("arrows, + −, 0", "in a figure over time: move, zoom, show all"),
     ("arrows", "in the drawing: go from place to place"),

@@ -93,12 +93,11 @@ def _place(
     one = found.get(name)
     share = None if one is None else max(0.0, min(1.0, float(one["share"])))
     told = "" if share is None else f"{100 * share:.1f} %"
-    words = f"{name}: {node['about']}" if node["about"] else name
-    if slot:
-        words += f"; {told} of the misfit" if told else "; not looked at" if found else ""
-        words += f"; added: {', '.join(added[name])}" if name in added else ""
-    look = [kind if slot or kind != "slot" else "part", "seen" if told else "", "first" if name in [*found][:1] else ""]
     rows = [name, *filter(None, [told]), *(f"+ {effect}" for effect in added.get(name, []))]
+    words = " ".join(rows)  # as they stand there: who speaks to the page says what is to be seen
+    words += " of the misfit" if told and slot else "; not looked at" if found and slot else ""
+    words += f"; {node['about']}" if node["about"] else ""
+    look = [kind if slot or kind != "slot" else "part", "seen" if told else "", "first" if name in [*found][:1] else ""]
     look += ["has"] if name in added else []
     return {
         "name": name, "rows": rows, "kind": " ".join(filter(None, look)), "share": share, "words": words, "pick": slot,

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 
 from nicegui import ui
 from nicegui.elements.mixins.text_element import TextElement
-from nicegui.events import KeyEventArguments
 
 from pysim.app.desk import Desk
 from pysim.app.jobs import FAILED
@@ -17,6 +17,7 @@ from pysim.app.pages.compare import compare_page
 from pysim.app.pages.data import data_page
 from pysim.app.pages.help import help_of
 from pysim.app.pages.locate import locate_page
+from pysim.app.pages.model import model_page
 from pysim.app.pages.start import start_page
 from pysim.app.pages.take import take_page
 from pysim.app.parts import box, button, live, text
@@ -25,6 +26,7 @@ from pysim.io import counted
 
 _PAGES = (
     ("/", "Data", data_page),
+    ("/model", "Model", model_page),
     ("/compare", "Compare", compare_page),
     ("/locate", "Locate", locate_page),
     ("/candidates", "Candidates", candidates_page),
@@ -47,7 +49,9 @@ def shell(desk: Desk) -> None:
     def turn() -> None:
         seen["help"] = "" if seen["help"] else "open"
 
-    ui.keyboard(lambda event: turn() if _asks_for_help(event) else None)
+    ui.on("help", turn)
+    ui.on("undo", lambda: desk.turn_back(desk.history.undo))
+    ui.on("redo", lambda: desk.turn_back(desk.history.redo))
     with box("shell"):
         text("a", "To the page", "skip").props('href="#page"')
         with box("top", "header"):
@@ -56,6 +60,7 @@ def shell(desk: Desk) -> None:
                 text("span", "Workbench")
             live(lambda: desk.version, lambda: _what(desk), "what")
             live(lambda: (desk.version, desk.runner.running is None), lambda: _job(desk))
+            live(lambda: (len(desk.history.past), len(desk.history.future)), lambda: _undo(desk), "turns")
             live(lambda: desk.project.settings().look, lambda: _look_button(desk))
             button("? Help", turn, "quiet")
         with box("rail", "nav").props('aria-label="Steps"'):
@@ -66,8 +71,15 @@ def shell(desk: Desk) -> None:
         live(lambda: (seen["help"], seen["path"]), lambda: _help(seen))
 
 
-def _asks_for_help(event: KeyEventArguments) -> bool:
-    return bool(event.action.keydown and not event.action.repeat and event.key == "?")
+def _undo(desk: Desk) -> None:
+    """Back and forward over all that was chosen."""
+    history = desk.history
+    for words, keys, steps, turn in (
+        ("↶ Undo", "Ctrl+Z", history.past, history.undo), ("↷ Redo", "Ctrl+Y", history.future, history.redo),
+    ):  # fmt: skip
+        press = button(words, partial(desk.turn_back, turn), "quiet", off="" if steps else "Nothing to go back to")
+        if steps:
+            press.props(f'title="{keys}"')
 
 
 def _help(seen: dict[str, str]) -> None:
@@ -179,7 +191,7 @@ def _states(desk: Desk) -> list[tuple[str, bool]]:
     """Per page a few words and whether it has something to show."""
     check = desk.loaded.check if desk.loaded else None
     answers = desk.answers
-    settings = desk.project.settings()
+    settings, values = desk.project.settings(), desk.project.values()
     compared, ranked = answers.with_effects(()), answers.newest("ranking")
     located, whole = answers.newest("missing"), answers.verdict
     now = answers.with_effects(settings.added)
@@ -190,6 +202,7 @@ def _states(desk: Desk) -> list[tuple[str, bool]]:
     last = "" if now is None or not settings.added else f"{_rms(settings.added[-1], now.data['error'])} × noise"
     return [
         (counted(len(check.records), "record") if check else "drop your logs", check is not None),
+        (f"{counted(len(values), 'value')} of your own" if values else "move its parameters", bool(values)),
         (error or "model beside data", compared is not None),
         (first or "where it fails", located is not None),
         (verdict or "what may be missing", ranked is not None),

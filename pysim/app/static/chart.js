@@ -27,7 +27,7 @@ function settings(series) {
 }
 
 export default {
-  template: `<div class="chart" role="img" :aria-label="label" :tabindex="series ? 0 : -1" @keydown="key"></div>`,
+  template: `<div class="chart" :role="series ? 'group' : 'img'" :aria-label="label" :tabindex="series ? 0 : -1" @keydown="key"></div>`,
   props: { figure: Object, series: Object, label: String, stamp: Number },
   async mounted() {
     const { Plotly } = await import("nicegui-plotly");
@@ -86,6 +86,19 @@ export default {
         await this.turn(() => this.Plotly.react(this.$el, data, layout, buttons));
         this.drawn = true;
         if (this.series && this.range) await this.fetch(this.range);
+      }
+    },
+    follow(y, traces, number) {
+      this.next = { y, traces, number };
+      this.following ??= this.catchUp().finally(() => (this.following = null));
+    },
+    async catchUp() {
+      while (this.next && this.$el.isConnected) {
+        const { y, traces, number } = this.next;
+        this.next = null;
+        if (!this.drawn) await this.drawing;
+        await this.turn(() => this.Plotly.restyle(this.$el, { y }, traces));
+        this.$el.dataset.move = number;
       }
     },
     moved(change) {

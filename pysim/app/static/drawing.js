@@ -34,7 +34,7 @@ export default {
       g.dataset.name = place.name;
       g.classList.add(...place.kind.split(" "));
       g.setAttribute("role", place.pick ? "button" : "img");
-      g.setAttribute("aria-label", place.words);
+      g.querySelector(".label")?.setAttribute("aria-hidden", "true"); // its name is the title
       const title = document.createElementNS("http://www.w3.org/2000/svg", "title");
       title.textContent = place.words;
       g.prepend(title);

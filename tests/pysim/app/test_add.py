@@ -67,6 +67,7 @@ def tab(shown: Shown, show: Show, project: Path) -> Iterator[Tab]:
 
 
 def test_the_staircase_moves_while_the_fit_runs(tab: Tab, project: Path) -> None:
+    tab.page.wait_for_function("document.title === '… Add – Workbench'")
     tab.page.get_by_role("button", name="Stop").evaluate("(el) => (el.dataset.mark = 'the same')")
     drawn(tab, "noise alone")  # the place of the first step, before the process tells anything
     for step, fit, number in (("prior", 63.8, "63.8"), ("refit", 20.3, "20.3"), ("toy.friction", 0.97, "0.97")):

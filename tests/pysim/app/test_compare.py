@@ -63,6 +63,7 @@ def answered(folder: Path, stages: list[dict[str, Any]]) -> None:
     error = [{"step": s["step"], "fit": 2.0, "validate": None, "criteria": {}, "passes": False} for s in stages]
     empty: dict[str, Any] = {key: [] for key in ("added", "ranking", "missing", "confusable", "notes")}
     answer = {**empty, "error": error, "reason": "", "verdict": "none", "next_test": None, "files": {}}
+    answer["warnings"] = {"prior": ["not this"], "refit": ["m stopped at its bound", "m stopped at its bound"]}
     (folder / "results/compare/answer.json").write_text(json.dumps(answer))
     job = {"work": {"name": "compare", "title": "Compare", "words": ["compare"], "effects": []}, "state": "done"}
     job |= {"begun": 1.0, "ended": 2.0, "fingerprint": Project(folder).fingerprint(), "message": ""}
@@ -96,6 +97,8 @@ def test_a_bode_plot_stands_in_its_band_and_says_when_it_leaves_it(shown: Shown,
     tab = Tab(shown, show(project), artefacts())
     tab.go("Compare")
     tab.see("passes Table 1.3")
+    banner = tab.page.get_by_role("alert").inner_text()  # of the last fit alone, and nothing twice
+    assert banner.split("\n\n") == ["Do not believe this fit", "m stopped at its bound"]
     curves = lines(tab)
     measured, band, model = curves["measured y"], curves["± 2 dB, ± 35° (Table 1.3) y"], curves["refitted y"]
     assert max(abs(a - b) for a, b in zip(model, measured, strict=True)) == pytest.approx(0.5)

@@ -144,6 +144,31 @@ def test_it_can_be_used_without_a_mouse(shown: Shown, address: str) -> None:
     assert tab.errors == []
 
 
+WIDE = """() => {
+    const page = document.querySelector("#page"), right = page.getBoundingClientRect().right + 1;
+    const scrolls = (e) => ["auto", "scroll", "hidden"].includes(getComputedStyle(e).overflowX);
+    const inside = (e) => e.parentElement !== page && (scrolls(e.parentElement) || inside(e.parentElement));
+    const out = (e) => e.getBoundingClientRect().width && e.getBoundingClientRect().right > right && !inside(e);
+    return [...page.querySelectorAll(".page *")].filter(out).map((e) => `${e.tagName} ${e.textContent.slice(0, 40)}`);
+}"""
+PATHS = ("/", "/model", "/compare", "/locate", "/candidates", "/add", "/take")
+
+
+@pytest.mark.parametrize("width", [420, 800, 1440])
+def test_nothing_sticks_out_and_what_reads_aloud_knows_the_page(width: int, shown: Shown, address: str) -> None:
+    tab = Tab(shown, address)
+    tab.page.set_viewport_size({"width": width, "height": 800})
+    for path in PATHS:
+        tab.page.locator(f".rail a[href='{path}']").click()
+        tab.page.wait_for_selector(f".rail a[href='{path}'][aria-current=page]")
+        assert tab.page.evaluate(WIDE) == [], path
+        assert tab.page.evaluate("document.documentElement.lang") == "en"
+        assert tab.page.locator("main").count() == 1
+        unnamed = "input:not([aria-label]):not([id]), select:not([aria-label])"
+        assert tab.page.locator(unnamed).count() == 0
+    assert tab.errors == []
+
+
 def test_light_and_dark_follow_the_system_and_the_choice(shown: Shown, address: str) -> None:
     dark = Tab(shown, address, color_scheme="dark")
     paper = "getComputedStyle(document.body).backgroundColor"
@@ -156,11 +181,35 @@ def test_light_and_dark_follow_the_system_and_the_choice(shown: Shown, address: 
     dark.page.get_by_title(re.compile("Look: auto")).wait_for()
 
 
+def test_a_data_set_that_another_took_the_place_of_is_brought_back(
+    shown: Shown, show: Show, dropped: Path, tmp_path: Path
+) -> None:
+    (dropped / "dataset.toml").write_text(described("first", "good"))
+    tab = Tab(shown, show(tmp_path / "project"), artefacts())
+    tab.drop("folder", dropped)
+    tab.see("2 records, 0 held out")
+    before = {path.name: path.read_bytes() for path in (tmp_path / "project/data").iterdir()}
+    (dropped / "dataset.toml").write_text(described("first"))
+    tab.drop("folder", dropped)
+    tab.see("1 record, 0 held out")
+    tab.press("Bring back data-1")
+    tab.see("2 records, 0 held out")
+    assert {path.name: path.read_bytes() for path in (tmp_path / "project/data").iterdir()} == before
+    tab.shot("earlier")
+    tab.press("Bring back data-2")  # and forth
+    tab.see("1 record, 0 held out")
+    assert tab.errors == []
+
+
 def test_a_wrong_file_is_refused_in_a_sentence(shown: Shown, address: str, tmp_path: Path) -> None:
     (tmp_path / "picture.jpg").write_bytes(b"\xff\xd8")
-    tab = Tab(shown, address)
+    tab = Tab(shown, address, artefacts())
     tab.drop("files", tmp_path / "picture.jpg")
     tab.see("no data set, no logs and no model in this: .jpg; drop logs as .txt")
+    toast, links = tab.page.locator(".q-notification").bounding_box(), tab.page.locator(".rail a").all()
+    tab.shot("toast")
+    assert toast["x"] + toast["width"] <= 212  # over the empty end of the rail: it covers no control
+    assert max(one.bounding_box()["y"] + one.bounding_box()["height"] for one in links) <= toast["y"]
     with zipfile.ZipFile(tmp_path / "sly.zip", "w") as archive:
         archive.writestr("../../outside.txt", "0 1 2")
     tab.drop("files", tmp_path / "sly.zip")

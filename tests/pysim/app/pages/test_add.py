@@ -1,18 +1,11 @@
 """What the page Add says beside the numbers."""
 
-from types import SimpleNamespace
-from typing import Any
-
-from pysim.app.pages.add import doubts
+from pysim.app.pages.add import _three
 
 
-def answer(**data: Any) -> Any:
-    return SimpleNamespace(data={"notes": [{"text": "b"}, {"text": "c"}], **data}, last={"step": "toy.friction"})
-
-
-def test_why_not_to_trust_the_last_model_comes_first_and_nothing_twice() -> None:
-    assert doubts(answer(warnings={"refit": ["x"], "toy.friction": ["a", "b"]})) == ["a", "b", "c"]
-
-
-def test_answers_of_an_earlier_version_have_notes_alone() -> None:
-    assert doubts(answer()) == ["b", "c"]
+def test_a_value_at_its_bound_is_said_in_red_and_one_that_is_not_determined_has_no_interval() -> None:
+    inside = {"value": 2.0, "lower": 1.0, "upper": 3.0, "low": 1.5, "high": 2.5, "determined": True}
+    assert _three(inside) == ["2", "1.5", "2.5"]
+    at = {**inside, "value": 3.0, "determined": False}
+    assert _three(at) == [{"text": "3 AT BOUND", "value": 3.0, "mark": "high"}, "–", "–"]
+    assert _three(None) == ["", "", ""]

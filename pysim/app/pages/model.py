@@ -1,0 +1,163 @@
+"""Page 2: the model's parameters, each with a slider that every curve follows."""
+
+from __future__ import annotations
+
+import asyncio
+from collections.abc import Mapping
+from typing import Any
+
+from nicegui import background_tasks
+
+from pysim.app.desk import Desk
+from pysim.app.pages.common import attempt, busy, nothing
+from pysim.app.parts import Chart, Choice, Sliders, box, button, card, head, live, say, text
+from pysim.app.worker import Ended
+from pysim.io import shown_unit
+from pysim.present.overlay import overlay_chart, signal_trace
+from pysim.types import BadInput
+
+
+def model_page(desk: Desk) -> None:
+    """Parameters and curves."""
+    head("Parameters", "Move a slider, and the model follows. Fits and searches begin at these values.")
+    follows = _Follows(desk)
+    live(lambda: (desk.model is not None, busy(desk), follows.number, _logs(desk)), follows.build, "gap")
+    live(lambda: (desk.version, desk.project.values()), follows.told)
+
+
+def _logs(desk: Desk) -> tuple[str, ...]:
+    check = desk.loaded.check if desk.loaded else None
+    return tuple(log.source for log in check.dataset.logs()) if check else ()
+
+
+class _Follows:
+    """One tab: its log, its figure, and the newest values, which are asked for once the ones before were answered."""
+
+    def __init__(self, desk: Desk) -> None:
+        self._desk, self.number = desk, 0
+        self._values: dict[str, float] = {}
+        self._moves, self._shown = 0, -1
+        self._asking = False
+        self._chart: Chart | None = None
+        self._sliders: Sliders | None = None
+
+    def build(self) -> None:
+        """The page anew."""
+        self._chart = self._sliders = None
+        logs = _logs(self._desk)
+        if self._desk.model is None or not logs or (why := busy(self._desk)):
+            words = why if self._desk.model is not None and logs else "Drop logs and name a model on the page Data."
+            nothing("No curves yet", words)
+            return
+        self.number = min(self.number, len(logs) - 1)
+        with card() as self._place, box("row end"):
+            self._state = text("span", "", "statement")
+            with box("form").style("width: 240px"):
+                Choice("log that is shown", logs, logs[self.number], lambda one: self._look(logs.index(one)))
+        with card("Parameters"):
+            self._sliders = Sliders(self._rows(), self._moved, self._fit)
+            with box("row"):
+                button("All as the model has them", lambda: attempt(lambda: self._desk.set_values({})), "small")
+        self._values, self._shown = self._all(), -1
+        self._ask()
+
+    def told(self) -> None:
+        """What is in the project now, though another tab, or undo, has written it."""
+        if self._sliders is not None and self._values != self._all():
+            self._values = self._all()
+            self._sliders.show(self._rows())
+            self._ask()
+
+    def _look(self, number: int) -> None:
+        self.number = number
+
+    def _all(self) -> dict[str, float]:
+        return {row["name"]: row["value"] for row in self._rows()}
+
+    def _rows(self) -> list[dict[str, Any]]:
+        """Name, value, bounds, unit, and whether it is fitted."""
+        set_, settings = self._desk.project.values(), self._desk.project.settings()
+        return [
+            {**one, "value": set_.get(one["name"], one["start"]), "slides": None not in (one["min"], one["max"])}
+            | {"fitted": one["name"] in (settings.free or suggested(self._desk))}
+            for one in (self._desk.model or {})["parameters"]
+            if one["start"] is not None
+        ]
+
+    def _fit(self, name: str, on: bool) -> None:
+        """Let a fit change a parameter, or leave it."""
+        now = self._desk.project.settings().free or suggested(self._desk)
+        free = tuple(one for one in now if one != name) + ((name,) if on else ())
+        if not free:
+            say("nothing would be fitted; leave at least one parameter ticked", bad=True)
+        else:
+            attempt(lambda: self._desk.change(free=free))
+        if self._sliders is not None:
+            self._sliders.show(self._rows())
+
+    def _moved(self, name: str, value: float, done: bool) -> None:
+        """A slider is elsewhere; what is kept is where it was let go."""
+        self._values = {**self._values, name: value}
+        if done:
+            attempt(lambda: self._desk.set_values({**self._desk.project.values(), name: value}))
+        self._ask()
+
+    def _ask(self) -> None:
+        self._moves += 1
+        if not self._asking:
+            self._asking = True
+            background_tasks.create(self._follow())
+
+    async def _follow(self) -> None:
+        """The last move wins: those that came while one was answered are left out."""
+        try:
+            while self._shown < self._moves and self._sliders is not None:
+                move = self._moves
+                await self._answer(move)
+                self._shown = move
+        finally:
+            self._asking = False
+
+    async def _answer(self, move: int) -> None:
+        try:
+            own = {row["name"]: row["start"] for row in self._rows()}
+            other = {name: value for name, value in self._values.items() if value != own[name]}
+            asked = self._desk.runner.worker.ask("curves", self.number, other)
+            found = await asyncio.wrap_future(asked)
+        except (BadInput, Ended) as error:
+            self._state.set_text(str(error) or "The process that simulates broke down; move the slider again.")
+            return
+        if self._sliders is None:
+            return
+        rms = zip(found["names"], found["rms"], strict=True)
+        self._state.set_text("Residual over noise: " + ", ".join(f"{name} {value:.3g}" for name, value in rms))
+        figure = _figure(found)
+        if self._chart is None:
+            with self._place:
+                self._chart = Chart(figure, "Measured and simulated", height=70 + 155 * len(found["names"]))
+        else:
+            lines = [k for k, one in enumerate(figure["data"]) if one["legendgroup"] != "measured"]
+            self._chart.follow([figure["data"][k]["y"] for k in lines], lines, move)
+
+
+def suggested(desk: Desk) -> tuple[str, ...]:
+    """Parameters that are fitted where nobody has chosen: all that the model gives bounds and a usual size."""
+    rows = (desk.model or {}).get("parameters", [])
+    return tuple(one["name"] for one in rows if None not in (one["min"], one["max"], one["nominal"], one["start"]))
+
+
+def _figure(found: Mapping[str, Any]) -> dict[str, Any]:
+    """Each signal as measured and as the sliders have it, and what is left over below."""
+    units, traces, time = [], [], found["time"].tolist()
+    for k, unit in enumerate(found["units"]):
+        shown, scale = shown_unit(unit)
+        units.append(shown)
+        for key, values, panel, of in (
+            ("measured", found["measured"][k] * scale, 2 * k + 1, shown),
+            ("last", found["simulated"][k] * scale, 2 * k + 1, shown),
+            ("last", found["left"][k], 2 * k + 2, "times the noise"),
+        ):
+            words = "measured" if key == "measured" else "as the sliders say"
+            first = not k and panel == 1
+            traces.append(signal_trace(key, words, panel, time, values.tolist(), legend=first, unit=of))
+    return dict(overlay_chart(found["names"], units, [("last", "as the sliders say")], traces))

@@ -1,0 +1,80 @@
+"""The page of parameters: every curve follows a slider, the last move wins, and where it is let go is kept."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from pysim.app.followed import Followed
+from pysim.app.project import Project, Settings
+from pysim.io import in_model_units, write_dataset
+from pysim.types import BadInput
+from pysim.workflow import data_of, model_of
+from tests.pysim.app.browser import Show, Shown, Tab, artefacts
+from tests.toy import TEXT, measured
+
+MOVES = 20
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    """A mass that rubs, whose model does not."""
+    one = Project.at(tmp_path / "project")
+    write_dataset(one.data, measured(1, "toy.friction", F_c=0.4))
+    one.models.mkdir()
+    (one.models / "Toy.mo").write_text(TEXT)
+    one.save(Settings(model="Toy.Mass", libraries=("model/Toy.mo",)))
+    return one
+
+
+def test_curves_are_those_of_the_model_with_these_values(project: Project) -> None:
+    model = model_of("Toy.Mass", [project.models / "Toy.mo"])
+    data = in_model_units(data_of(project.data), model)
+    followed = Followed.of(model, data, 0, {})
+    soft, stiff = (followed.curves({"k": k}) for k in (20.0, 80.0))
+    assert soft["names"] == ("x",)
+    assert np.array_equal(soft["measured"], stiff["measured"])
+    assert soft["left"] == pytest.approx((soft["measured"] - soft["simulated"]) / 0.001, rel=1e-6)
+    assert np.std(soft["simulated"]) > 1.5 * np.std(stiff["simulated"])  # a softer spring gives way
+    with pytest.raises(BadInput, match="there is no such log; choose another one"):
+        Followed.of(model, data, 9, {})
+
+
+def test_every_curve_follows_a_slider_and_what_is_let_go_is_kept(shown: Shown, show: Show, project: Project) -> None:
+    tab = Tab(shown, show(project.folder), artefacts())
+    tab.see("effects that fit")
+    tab.go("Model")
+    chart = tab.page.locator(".chart[aria-label='Measured and simulated'][data-ready=yes]")
+    chart.wait_for()
+    curve = "(el) => el.data[1].y.filter((_, k) => k % 50 === 0)"
+    before = chart.evaluate(curve)
+    slider = tab.page.get_by_label("slider of k")
+    slid = f"""async (slider) => {{
+        for (let k = 1; k <= {MOVES}; k++) {{
+            slider.value = 1000 * k / {MOVES};
+            slider.dispatchEvent(new Event("input"));
+            await new Promise((done) => setTimeout(done, 5));
+        }}
+        slider.dispatchEvent(new Event("change"));
+    }}"""
+    slider.evaluate(slid)
+    tab.page.wait_for_function(f"Number(document.querySelector('.chart').dataset.move) > {MOVES + 1}")  # the last one
+    assert chart.evaluate(curve) != before
+    tab.shot("model")
+    assert project.values() == {"k": 100.0}  # its max
+    assert tab.page.get_by_label("value of k").input_value() == "100"
+    tab.page.keyboard.press("Control+z")
+    tab.page.wait_for_function(f"Number(document.querySelector('.chart').dataset.move) > {MOVES + 2}")
+    assert project.values() == {}
+    assert chart.evaluate(curve) == pytest.approx(before)
+    tab.page.keyboard.press("Control+y")
+    tab.page.wait_for_function(f"Number(document.querySelector('.chart').dataset.move) > {MOVES + 3}")
+    assert project.values() == {"k": 100.0}
+    tab.page.get_by_label("fit k").uncheck()
+    tab.page.wait_for_timeout(500)
+    assert "k" not in project.settings().free
+    tab.press("All as the model has them")
+    tab.page.wait_for_function(f"Number(document.querySelector('.chart').dataset.move) > {MOVES + 4}")
+    assert chart.evaluate(curve) == pytest.approx(before)
+    assert project.values() == {}
+    assert tab.errors == []
