@@ -185,8 +185,8 @@ def requirements(names: Iterable[str]) -> tuple[list[str], list[str]]:
     return extras, [one for name in sorted(wanted - set(extras)) for one in groups[name]]
 
 
-def bundle(words: Sequence[str]) -> int:
-    """Fill wheels/ with all packages that a PC without a network needs, for its system and its Python."""
+def for_bundle(words: Sequence[str]) -> argparse.Namespace:
+    """What `run.py bundle` is given."""
     parser = argparse.ArgumentParser(prog="run.py bundle", description=bundle.__doc__)
     everything = sorted({"app"}.union(*GROUPS.values()) - {"bundle"})
     about = (
@@ -196,8 +196,12 @@ def bundle(words: Sequence[str]) -> int:
     parser.add_argument("--platform", choices=sorted(PLATFORMS), help="system of the other PC (that of this one)")
     here = f"{sys.version_info.major}.{sys.version_info.minor}"
     parser.add_argument("--python", default=here, metavar="3.12", help=f"Python of the other PC ({here}, as here)")
-    given = parser.parse_args(words)
-    said = project()
+    return parser.parse_args(words)
+
+
+def bundle(words: Sequence[str]) -> int:
+    """Fill wheels/ with all packages that a PC without a network needs, for its system and its Python."""
+    given, said = for_bundle(words), project()
     extras, wanted = requirements(given.names)
     prepare({"bundle"})
     wanted += [*said["project"].get("dependencies", ()), *said["build-system"]["requires"], "editables"]

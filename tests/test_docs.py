@@ -91,6 +91,9 @@ def parse(words: list[str]) -> None:
     """
     if tuple(words[:2]) == RUNNER:
         run = import_module("run")
+        if words[2] == "bundle":
+            run.for_bundle(words[3:])
+            return
         assert words[2] in run.COMMANDS | run.CHECKS, f"run.py has no command {words[2]}"
         words = {"demo": ["pysim", "demo"]}.get(words[2], [words[2]]) + words[3:]
     if words[0] == "validate":

@@ -105,7 +105,6 @@ def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
     app.add_static_files("/static", _STATIC)
     app.timer(_TICK, desk.tick)
     app.on_startup(lambda: _announce(words, host, port, address if show else ""))
-    app.on_startup(desk.runner.worker.warm)
     app.on_startup(desk.read)
     app.on_shutdown(lambda: desk.runner.close())  # of the project that is shown then
     ui.run(

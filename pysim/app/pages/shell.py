@@ -40,6 +40,7 @@ _MARK = (
 
 def shell(desk: Desk) -> None:
     """One tab."""
+    desk.runner.worker.warm()  # what it imports is there before a button is pressed
     ui.add_head_html(
         '<link rel="stylesheet" href="/static/app.css"><script>document.documentElement.lang="en"</script>'
     )
