@@ -98,9 +98,11 @@ class Filling:
     initial: tuple[str, ...]
 
 
-def filling(slot: Slot, libraries: Sequence[Path]) -> Filling:
+def filling(slot: Slot, libraries: Sequence[Path], *, final: bool = True) -> Filling:
     """The class that fills a slot in the model as it is.
 
+    Args:
+        final: whether its parameters cannot be set any more.
     Raises:
         BadInput: it inherits its law, or has more than declarations and plain equations.
     """
@@ -116,7 +118,7 @@ def filling(slot: Slot, libraries: Sequence[Path]) -> Filling:
             raise BadInput(f"{slot.filling} is more than equations; write a class for the slot {slot.name} by hand")
         parts = [part for one in text.of_kind(Kind.EXTENDS) for part in split(one.arguments, ",")]
         modifications = [with_full_names(text.text(part), text, library) for part in parts]
-        declared = [_declared(one, text, library) for one in text.of_kind(Kind.COMPONENT)]
+        declared = [_declared(one, text, library, final) for one in text.of_kind(Kind.COMPONENT)]
         own = {one.start for one in text.equations}
         written = [(one.start, with_full_names(text.text(one.tokens).rstrip("; \n"), text, library)) for one in found]
     equations = [equation for start, equation in written if start in own]
@@ -126,9 +128,9 @@ def filling(slot: Slot, libraries: Sequence[Path]) -> Filling:
     return Filling(tuple(modifications), tuple(declared), tuple(pairs), tuple(initial))
 
 
-def _declared(one: Declaration, owner: ClassText, library: Libraries) -> str:
+def _declared(one: Declaration, owner: ClassText, library: Libraries, final: bool) -> str:
     known = library.resolve(one.class_name, owner)
-    prefixes = one.prefixes - {"replaceable"} | ({"final"} if "parameter" in one.prefixes else set())
+    prefixes = one.prefixes - {"replaceable"} | ({"final"} if final and "parameter" in one.prefixes else set())
     words = [*sorted(prefixes), known.full_name if known else one.class_name]
     rest = with_full_names(owner.text(one.dimensions) + owner.text(one.modification), owner, library)
     about = f" {quoted(one.description)}" if one.description else ""

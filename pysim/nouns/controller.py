@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import copy
 import inspect
+import weakref
 from collections.abc import Mapping, Sequence
 from numbers import Real
 from typing import Any
@@ -10,6 +12,9 @@ from typing import Any
 import numpy as np
 
 from pysim.types import BadInput, Port
+
+# Number of a controller -> its numbers before its last run, and behind it.
+_RUNS: dict[int, tuple[Mapping[str, Any], Mapping[str, Any]]] = {}
 
 
 class PlainBlock:
@@ -35,6 +40,24 @@ class PlainBlock:
         self.outputs = tuple(Port(one, units.get(one, "1")) for one in outputs)
         self.dt = getattr(controller, "dt", None)
         self._held = tuple((key, _size(value)) for key, value in vars(controller).items() if _size(value) is not None)
+
+    def begin(self) -> None:
+        """A run begins. What the one before has changed is as that found it, unless its owner has set it since."""
+        own = self._controller
+        found, left = _RUNS.get(id(own), ({}, {}))
+        for key, _ in self._held:
+            if key in left and np.array_equal(getattr(own, key), left[key], equal_nan=True):
+                setattr(own, key, copy.copy(found[key]))
+        self._found = self._numbers()
+
+    def end(self) -> None:
+        """The run is over."""
+        if id(self._controller) not in _RUNS:
+            weakref.finalize(self._controller, _RUNS.pop, id(self._controller), None)
+        _RUNS[id(self._controller)] = self._found, self._numbers()
+
+    def _numbers(self) -> Mapping[str, Any]:
+        return {key: copy.copy(getattr(self._controller, key)) for key, _ in self._held}
 
     def step(self, time: float, inputs: Sequence[float]) -> tuple[float, ...]:
         """One sample."""

@@ -51,7 +51,7 @@ def cosimulate(
         BadInput: an unknown name, units that differ, an input that nothing drives, or an algebraic loop.
         SimulationError: a member failed; `.record` is the part that was reached.
     """
-    from pysim.cosim import Connection, System
+    from pysim.cosim import Connection, Sampled, System
     from pysim.cosim import cosimulate as stepped
 
     if not dt > 0 or not stop >= dt:
@@ -63,6 +63,7 @@ def cosimulate(
     driven = {name: signal_of(value, stop, name) for name, value in (inputs or {}).items()}
     targets = {*(target for _, target in pairs), *driven}
     parts = _parts(members, pairs, targets, dt)
+    plain = [one.block for one in parts if isinstance(one, Sampled) and isinstance(one.block, PlainBlock)]
     system = System(tuple(parts), tuple(Connection(*pair, *_conversion(parts, *pair)) for pair in pairs))
     names = tuple(record) or (*system.outputs, *driven)
     times = np.asarray(dt * np.arange(round(stop / dt) + 1), dtype=np.float64)
@@ -74,7 +75,11 @@ def cosimulate(
                 say(ProgressEvent(f"at {time:.3g} of {stop:g} s"))
 
         experiment = Experiment(times, names, driven, rates=_rates(parts, driven))
-        done = stepped(system, experiment, step=dt, check=check, progress=heard)
+        try:
+            done = stepped(system, experiment, step=dt, check=check, progress=heard)
+        finally:
+            for block in plain:
+                block.end()
     return Run(done, " + ".join(members))
 
 
@@ -104,6 +109,7 @@ def _parts(members: Mapping[str, Any], pairs: Sequence[tuple[str, str]], targets
     for name, one in plain.items():
         own = {port.partition(".")[2]: unit for port, unit in units.items() if port.partition(".")[0] == name}
         block = PlainBlock(name, one, _outputs(name, one, pairs), own)
+        block.begin()
         found[name] = Sampled(name, block, block.dt or dt)
     return [found[name] for name in members]
 

@@ -193,13 +193,15 @@ class Diagnosis(Shown):
     def model(self) -> Model:
         """The model with what was found, refitted."""
         effects = [one for one in self.found.effects if one.effect.class_name]
-        grown = self.begun.with_effects(*(one.effect.name for one in effects))
-        for law in self.missing[: len(self.found.learned)]:
-            if law.found.modelica:
-                grown = grown.with_effects(law.to_effect(f"learned.{law.slot}"))
+        laws = {law.slot: law for law in self.missing[: len(self.found.learned)] if law.found.modelica}
+        inner = {one.effect.slot: one.effect for one in effects if one.effect.slot in laws}  # part of the law's class
+        grown = self.begun.with_effects(*(one.effect.name for one in effects if one.effect.slot not in laws))
+        for slot, law in laws.items():
+            grown = grown.with_effects(law.to_effect(f"learned.{slot}", inner=inner.get(slot)))
         values = {e.name: e.value for e in self.found.estimates if "@" not in e.name}
         for one in effects:
-            ahead, place = grown.places[one.effect.name], one.place
+            name = f"learned.{one.effect.slot}" if one.effect.slot in inner else one.effect.name
+            ahead, place = grown.places[name], one.place
             values = {name: value for name, value in values.items() if not name.startswith(f"{place}.")} | {
                 f"{ahead}.{p.name}": e.value for p, e in zip(one.effect.parameters, one.estimates, strict=True)
             }

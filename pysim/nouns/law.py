@@ -11,6 +11,7 @@ from pysim.nouns.model import Model
 from pysim.nouns.table import Shown, Table
 from pysim.types import BadInput, LearnedLaw, law_data
 from pysim.types import Diagnosis as Answer
+from pysim.types import Effect as Missing
 
 
 def laws_of(found: Answer, model: Model) -> tuple[Law, ...]:
@@ -83,9 +84,11 @@ class Law(Shown):
             return as_plotly(law_chart(law_data(self.found)))
         return law_figure(self.found, self.samples)
 
-    def to_effect(self, name: str, *, description: str = "") -> Effect:
+    def to_effect(self, name: str, *, description: str = "", inner: Missing | None = None) -> Effect:
         """An effect whose law this curve is, to add to a model; `save(folder)` writes its class into a library.
 
+        Args:
+            inner: effect of the same slot that becomes part of it, since a slot takes one.
         Raises:
             BadInput: no class can be written for the slot, or the name makes no name of a class.
         """
@@ -94,10 +97,14 @@ class Law(Shown):
         if self.model.variants is None:
             raise BadInput(f"nothing can be added to {self.model.name}: its class is in no library")
         variants = self.model.variants
-        folder = effect_folder(f"{name}|{description}|{self.found.slot}|{self.found.coefficients.tobytes().hex()}")
+        within = "" if inner is None else f"|{inner.class_name}|{inner.law}"
+        curve = self.found.coefficients.tobytes().hex()
+        folder = effect_folder(f"{name}|{description}|{self.found.slot}|{curve}{within}")
         file = folder / f"{class_name_of(name)}.mo"
         if not file.exists():
-            keep_law(self.found, name, variants.class_name, variants.libraries, folder, description=description)
+            keep_law(
+                self.found, name, variants.class_name, variants.libraries, folder, description=description, inner=inner
+            )
         return own_effect(file)
 
     def save(self, folder: Path | str, name: str) -> Path:

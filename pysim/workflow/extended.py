@@ -9,7 +9,7 @@ from pathlib import Path
 from pysim.io import shown_unit, write_file
 from pysim.present.diagnosis.words import limits_sentence
 from pysim.types import Dataset, Diagnosis
-from pysim.workflow.learned import law_file
+from pysim.workflow.learned import law_file, with_laws
 from pysim.workflow.session import SessionParts
 from pysim.workflow.shell import command_line
 
@@ -20,7 +20,8 @@ _WIDTH = 110
 def write_extended(
     found: Diagnosis, parts: SessionParts, folder: Path, *, place: Path | None = None
 ) -> dict[str, Path]:
-    """Write the fitted values, and the class and its FMU where effects were added; name -> path, none without a refit.
+    """Write the fitted values, and the class and its FMU where effects or laws were added; name -> path, none without a
+    refit.
 
     Nothing of the user's files is changed: the class extends theirs.
 
@@ -32,12 +33,14 @@ def write_extended(
     """
     fitted = {e.name: e.value for e in found.estimates if "@" not in e.name}
     files: dict[str, Path] = {}
-    effects = [one.effect for one in found.effects if one.effect.class_name]  # a sensor's error has none
-    if effects and parts.variants is not None:
-        name = extended_name(parts.variants.class_name, [effect.class_name for effect in effects])
+    for law in found.learned:  # those of an answer before
+        (folder / law_file(law)).unlink(missing_ok=True)
+    effects, variants = ([], None) if parts.variants is None else with_laws(found, parts.variants, folder)
+    if effects and variants is not None:
+        name = extended_name(variants.class_name, [effect.class_name for effect in effects])
         states, fmu = parts.model.abilities.states, folder / f"{name}.fmu"
         values = {key: value for key, value in {**parts.overrides, **fitted}.items() if key not in states}
-        parts.variants.write(effects, folder, fmu, name, values, _comment(found, parts, place or folder, name))
+        variants.write(effects, folder, fmu, name, values, _comment(found, parts, place or folder, name))
         files = {"modelica": folder / f"{name}.mo", "fmu": fmu}
         about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."
     else:
@@ -45,7 +48,8 @@ def write_extended(
     for k, law in enumerate(law for law in found.learned if law.modelica):
         key = "learned" if k == 0 else f"learned_{k + 1}"
         files[key] = folder / law_file(law)
-        write_file(files[key], law.modelica)
+        if not files[key].exists():
+            write_file(files[key], law.modelica)
     if fitted:
         files["parameters"] = folder / PARAMETERS
         write_file(files["parameters"], parameters_text(f"Of {about}", fitted))
@@ -76,11 +80,14 @@ def _last(name: str) -> str:
 
 def _comment(found: Diagnosis, parts: SessionParts, folder: Path, name: str) -> str:
     """What it is, from which data, and when not to trust it."""
-    libraries = [folder / f"{name}.mo", *parts.libraries]
+    laws = [law for law in found.learned if law.modelica]
+    libraries = [folder / f"{name}.mo", *(folder / law_file(law) for law in laws), *parts.libraries]
     own = [word for library in libraries for word in ("--library", str(library.resolve()))]
     build = command_line([name, *own], folder, program="fmu-build")  # whole paths, as it may be pasted anywhere
+    added = [one.effect.name for one in found.effects]
+    added += [f"a learned law at {law.slot} over {law.argument}" for law in laws]
     paragraphs = [
-        f"{name}: {parts.model_name} with {', '.join(one.effect.name for one in found.effects)}.",
+        f"{name}: {parts.model_name} with {', '.join(added)}.",
         f"Every number below was fitted to the records of data set {parts.dataset.name} that are marked fit; intervals "
         "and evidence are in report.html beside this file.",
         f"Compiles by: {build}",

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from pysim.diagnosis.learn.formula import Formula
     from pysim.effects import Slot
     from pysim.types.answer import Diagnosis, LearnedLaw
+    from pysim.workflow.variants import Variants
 
 
 def with_classes(found: Diagnosis, model: str, libraries: Sequence[Path]) -> Diagnosis:
@@ -49,6 +50,7 @@ def keep_law(
     *,
     description: str = "",
     formula: Formula | None = None,
+    inner: Effect | None = None,
 ) -> Effect:
     """Write the class of a learned law into a folder, as a library of one effect.
 
@@ -58,8 +60,9 @@ def keep_law(
         libraries: where that is.
         folder: made where it is not there.
         formula: in place of the table.
+        inner: effect in the same slot that becomes part of the class.
     Returns:
-        the effect, as `pysim.effects.read_catalogue` reads it from that file.
+        the effect, as `pysim.effects.read_catalogue` reads it from that file beside the libraries.
     Raises:
         BadInput: the model has no such slot, the file is there, or no class can be written for the slot.
     """
@@ -72,11 +75,32 @@ def keep_law(
     file = folder / f"{own}.mo"
     if file.exists():
         raise BadInput(f"{file} is there already; give the law another name or folder")
-    text = law_class(law, slot, own, libraries, effect=name, description=description, formula=formula)
+    text = law_class(law, slot, own, libraries, effect=name, description=description, formula=formula, inner=inner)
     folder.mkdir(parents=True, exist_ok=True)
     file.write_text(text, encoding="utf-8")
-    (effect,) = read_catalogue(file)
-    return effect
+    return next(one for one in read_catalogue(*libraries, file) if one.class_name == own)
+
+
+def with_laws(found: Diagnosis, variants: Variants, folder: Path) -> tuple[list[Effect], Variants]:
+    """The effects of an answer and the laws that it learned, each the filling of a slot, and what builds models with
+    them.
+
+    An effect in the slot of a law becomes part of the law's class. A law whose slot has a pair of effects stays out.
+
+    Args:
+        folder: gets the files of the laws; none of them may be there.
+    Raises:
+        BadInput: no class can be written.
+    """
+    effects, libraries = [one.effect for one in found.effects if one.effect.class_name], variants.libraries
+    for law in found.learned:
+        beside = [one for one in effects if one.slot == law.slot]
+        if law.modelica and len(beside) < 2:
+            name, inner = _effect_name(law), next(iter(beside), None)
+            own = keep_law(law, name, variants.class_name, libraries, folder, inner=inner)
+            effects = [*(one for one in effects if one is not inner), own]
+            libraries = (*libraries, folder / law_file(law))
+    return effects, replace(variants, libraries=libraries)
 
 
 def law_file(law: LearnedLaw) -> str:

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnosis import refit
-from pysim.diagnosis.learn.basis import Smoothness, missed
+from pysim.diagnosis.learn.basis import Smoothness, lines, missed
 from pysim.diagnosis.learn.laws import Law
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.learn.screening import LawModel, Ranked
@@ -77,8 +77,13 @@ class LawFit:
 
     @property
     def coarse(self) -> bool:
-        """Whether straight lines between the knots miss more than the data would forgive, by standard deviations."""
-        sd = np.sqrt(np.diag(np.linalg.inv(self.gram + self.smoothness.precision)))
+        """Whether straight lines between the knots miss more than the data would forgive, by standard deviations.
+
+        A level and a slope, which the model's own parameters may absorb, miss nothing, however little is known of them.
+        """
+        line = lines(self.knots)
+        keep = np.eye(self.knots.size) - line @ line.T
+        sd = np.sqrt(np.diag(keep @ np.linalg.inv(self.gram + self.smoothness.precision) @ keep))
         return bool(np.any(missed(self.knots, self.values) > np.maximum(sd[1:], sd[:-1])))
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from textwrap import fill as wrapped
 
@@ -19,7 +19,7 @@ from pysim.diagnosis.learn.curve_text import CURVE, RAMP, SLOPE
 from pysim.diagnosis.learn.formula import REACH, Formula, rounded_up
 from pysim.effects import VENDOR, Filling, Slot, filling, parameter_text, slot_units
 from pysim.effects.law import check_units, dimension, dimension_words
-from pysim.types import BadInput, EffectParameter
+from pysim.types import BadInput, Effect, EffectParameter
 from pysim.types.answer import LearnedLaw
 
 Array = NDArray[np.float64]
@@ -34,6 +34,7 @@ def law_class(
     effect: str = "",
     description: str = "",
     formula: Formula | None = None,
+    inner: Effect | None = None,
 ) -> str:
     """The class of a learned law, to be put into a file of its own and named as a library.
 
@@ -51,10 +52,12 @@ def law_class(
         libraries: where the slot's filling and its partial class are.
         effect: its name in the catalogue; "" for a class that is no candidate of a diagnosis.
         formula: in place of the table; of `formula.formulas(law)`.
+        inner: effect in the same slot that becomes part of the class, with its parameters; a slot takes one class.
     Raises:
         BadInput: a slot whose filling does not give its variable by an equation `y = ...`, or units that do not fit.
     """
-    parts = filling(slot, libraries)
+    slot = slot if inner is None else replace(slot, filling=inner.class_name)
+    parts = filling(slot, libraries, final=inner is None)
     writer = _Writer(law, slot, libraries, formula)
     equations = []
     sides = _sides(slot, parts)

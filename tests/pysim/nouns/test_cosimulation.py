@@ -43,10 +43,18 @@ def test_it_runs_as_the_block_with_ports_does(mass: Model) -> None:
     assert len(repr(plain)) < 2000
 
 
-def test_a_run_begins_where_the_controller_was_made(mass: Model) -> None:
+def test_a_second_run_begins_where_the_first_did(mass: Model) -> None:
+    """What its owner sets between two runs stays set; the integral of the first run is gone, and can be read before."""
     controller = PI(20.0, 0.5, DT)
-    first, second = closed(mass, controller), closed(mass, PI(20.0, 0.5, DT))
-    assert first["pi.u"] == pytest.approx(second["pi.u"], abs=0.0)
+    first = closed(mass, controller)
+    assert controller.integral != 0.0
+    assert closed(mass, controller)["pi.u"] == pytest.approx(first["pi.u"], abs=0.0)
+    controller.K_p = 10.0
+    assert closed(mass, controller)["pi.u"] == pytest.approx(closed(mass, PI(10.0, 0.5, DT))["pi.u"], abs=0.0)
+    controller.integral = 0.3
+    begun = PI(10.0, 0.5, DT)
+    begun.integral = 0.3
+    assert closed(mass, controller)["pi.u"] == pytest.approx(closed(mass, begun)["pi.u"], abs=0.0)
 
 
 def test_units_come_from_the_wires() -> None:

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import pysim
+from pysim.nouns.model import opened
 from tests.pysim.nouns import script_files
 from tests.pysim.nouns.script_files import FRICTION, RIG_TRUE, STRENGTHS, TRUE
 from tests.test_docs import ROOT, blocks
@@ -38,6 +39,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Ran]:
     def ran(number: int, files: Callable[[Path], None] = lambda folder: None) -> Ran:
         monkeypatch.chdir(tmp_path)
         files(tmp_path)
+        opened.clear()  # a script has a process to itself
         names: Ran = {"__name__": "__main__"}
         exec(compile(SCRIPTS[number - 1], f"script {number}", "exec"), names)
         plt.close("all")

@@ -7,13 +7,19 @@ import numpy as np
 import pytest
 
 from pysim.effects import STANDARD_LIBRARY, read_catalogue
-from pysim.types import BadInput
-from pysim.types.answer import Diagnosis, LearnedLaw, Left
-from pysim.workflow.learned import keep_law, with_classes
+from pysim.simulate import simulate
+from pysim.types import BadInput, Experiment, Signal
+from pysim.types.answer import Diagnosis, FoundEffect, LearnedLaw, Left
+from pysim.workflow.learned import keep_law, with_classes, with_laws
+from pysim.workflow.variants import Variants
 
 PUMP = "HydraulicTestBench.Pump.FreeGreyBox"
 KNOTS = np.linspace(-20e-3, 20e-3, 9)
 LAW = LearnedLaw("pistonForce", "v", "pistonForce.x", KNOTS, 3e5 * KNOTS, 1e4 * np.eye(9), 0.7, "m", "N.s/m")
+
+
+def answer(law: LearnedLaw, *effects: FoundEffect) -> Diagnosis:
+    return Diagnosis(effects, False, Left({}, None, None), (), (), (), (), learned=(law,))
 
 
 def test_an_answer_gets_classes_and_formulas(tmp_path: Path) -> None:
@@ -38,3 +44,42 @@ def test_a_law_is_kept_once_under_a_name_of_the_users(tmp_path: Path) -> None:
             keep_law(LAW, name, PUMP, [STANDARD_LIBRARY], tmp_path / "own")
     with pytest.raises(BadInput, match="no slot nothing"):
         keep_law(replace(LAW, slot="nothing"), "my.other", PUMP, [STANDARD_LIBRARY], tmp_path)
+
+
+def test_an_effect_in_the_slot_of_a_law_becomes_part_of_its_class(tmp_path: Path) -> None:
+    """The model with both answers as the plant that has both; a slot takes one class."""
+    variants = Variants(PUMP, (STANDARD_LIBRARY,))
+    known = {effect.name: effect for effect in read_catalogue(STANDARD_LIBRARY)}
+    friction = FoundEffect(known["friction.coulomb"], "pistonForce", ())
+    text = with_classes(answer(LAW, friction), PUMP, [STANDARD_LIBRARY])
+    (effect,), wider = with_laws(text, variants, tmp_path)
+    assert effect.slot == "pistonForce"
+    assert {p.name for p in effect.parameters} >= {"F_c", "c[1]", "c[9]"}
+    model, places = wider.build([effect])
+    place = places[effect.name]
+    assert model[f"{place}.F_c"].causality == "parameter"
+
+    alone = keep_law(LAW, "my.damping", PUMP, [STANDARD_LIBRARY], tmp_path / "own")
+    only, _ = Variants(PUMP, (STANDARD_LIBRARY, tmp_path / "own" / "MyDamping.mo")).build([alone])
+    times = np.linspace(0, 0.4, 81)
+    swing = Signal(np.zeros(1), np.array([[0.0, 0.0, 0.0, 0.0]]), np.array([[[0.2, 0.0, 12.0, 0.0]]]))
+    runs = {
+        "law": (only, {}),
+        "law and friction off": (model, {f"{place}.F_c": 0.0}),
+        "law and friction": (model, {f"{place}.F_c": 300.0}),
+    }
+    angle = {
+        key: simulate(m, Experiment(times, ("alphaPercent",), {"alphaCMD": swing}).override(**own))["alphaPercent"]
+        for key, (m, own) in runs.items()
+    }
+    assert angle["law and friction off"] == pytest.approx(angle["law"], abs=1e-6)
+    assert np.ptp(angle["law and friction"] - angle["law"]) > 1e-3
+
+
+def test_a_law_whose_slot_has_a_pair_of_effects_stays_out(tmp_path: Path) -> None:
+    known = {effect.name: effect for effect in read_catalogue(STANDARD_LIBRARY)}
+    both = [FoundEffect(known[name], "pistonForce", ()) for name in ("friction.coulomb", "spring.preload")]
+    found = with_classes(answer(LAW, *both), PUMP, [STANDARD_LIBRARY])
+    effects, variants = with_laws(found, Variants(PUMP, (STANDARD_LIBRARY,)), tmp_path)
+    assert [effect.name for effect in effects] == ["friction.coulomb", "spring.preload"]
+    assert variants.libraries == (STANDARD_LIBRARY,)

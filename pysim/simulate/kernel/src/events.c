@@ -7,6 +7,13 @@ enum {
     SEARCH = 200   /* evaluations to locate one event; every third one halves the bracket */
 };
 
+static const double standstill = 1e-15; /* of the time so far and of the whole run: less is rounding */
+
+void move_time(Run *run, double t_new) {
+    if (t_new - run->t > standstill * larger(fabs(t_new), run->end - run->start)) run->crowd = 0;
+    run->t = t_new;
+}
+
 /* Whether an indicator changed between > 0 and <= 0. */
 bool crossed(const Job *job, const double *before, const double *after) {
     bool changed = false;

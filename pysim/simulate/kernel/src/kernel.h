@@ -61,6 +61,8 @@ bool crossed(const Job *job, const double *before, const double *after);
 int locate(Job *job, double h, double *theta);
 int settle(Job *job);
 int handle_event(Job *job);
+/* Makes t_new (s) the time; where it truly moves on, no crowd of events is left behind. */
+void move_time(Run *run, double t_new);
 
 /* run.c: breaks of the inputs, and the end of a run. */
 bool at_break(const Job *job);

@@ -1,7 +1,6 @@
 /* A run: step, locate, record, handle events. */
 #include "kernel.h"
 
-static const double standstill = 1e-15; /* of the time so far and of the whole run: less is rounding */
 static const int64_t stretch = 1000000; /* steps over which the pace of a run is seen; no transient takes as many */
 static const double hopeless = 1e3;     /* times the limit of steps that the rest would take at that pace */
 
@@ -85,8 +84,7 @@ static int arrive(Job *job, double t_new, bool event) {
     Fmu *fmu = job->fmu;
     Run *run = &job->run;
     Work *w = &job->work;
-    if (t_new - run->t > standstill * larger(fabs(t_new), run->end - run->start)) run->crowd = 0;
-    run->t = t_new;
+    move_time(run, t_new);
     copy(w->x, w->x_new, w->n);
     copy(w->dx, w->dx_new, w->n);
     copy(w->z, w->z_new, w->m);

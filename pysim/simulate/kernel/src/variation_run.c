@@ -90,7 +90,7 @@ static int pass_break(Job *job) {
 static int arrive(Job *job, double t_new) {
     Run *run = &job->run;
     Work *w = &job->work;
-    run->t = t_new;
+    move_time(run, t_new);
     copy(w->x, w->x_new, w->n);
     copy(w->dx, w->dx_new, w->n);
     copy(w->z, w->z_new, w->m);

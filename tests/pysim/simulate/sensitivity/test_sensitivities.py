@@ -255,3 +255,18 @@ def test_a_run_that_cannot_start_does_not_cost_the_others_their_derivatives(tmp_
 def test_what_cannot_be_differentiated_by_is_refused(fixture_model, names, words):
     with pytest.raises(BadInput, match=words):
         sensitivities(fixture_model(OSCILLATOR), forced(np.array([1.0])), names)
+
+
+def test_an_input_held_between_samples_may_jump_any_number_of_times(fixture_model):
+    """Each jump is an event, and time moves on between them."""
+    count, step = 3000, 1e-3
+    values = np.arange(count) % 2.0
+    pieces = np.zeros((count, 4))
+    pieces[:, 0] = values
+    held = Signal(step * np.arange(count), pieces, np.zeros((count, 0, 4)))
+    times = np.array([0.5 * count * step, (count - 0.5) * step])
+    run = Experiment(times, ("x", "v"), {"u": held})
+    found = sensitivities(fixture_model(OSCILLATOR), run, ("w", "D"), solver=Esdirk(1e-6, 1e-6))
+    assert found.record.outcome is Outcome.DONE
+    plain = simulate(fixture_model(OSCILLATOR), run, solver=Rodas(1e-8, 1e-8))
+    np.testing.assert_allclose(found.record["x"], plain["x"], atol=1e-4)
