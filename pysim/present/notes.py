@@ -25,7 +25,9 @@ _WORDS = {
     NoteCode.NOT_SIMULATED: "{record} could not be simulated: {reason}",
     NoteCode.NOT_TRIED: "{effect} was not tried: {reason}.",
     NoteCode.HELD: "The data do not determine {parameter}; it was held at its value, and the intervals hold for that.",
-    NoteCode.AT_BOUND: "{parameter} stopped at its bound ({shown}): widen the bound, or fix the parameter.",
+    NoteCode.AT_BOUND: (
+        "{parameter} stopped at its bound ({shown}): widen it if values beyond make sense, or fix the parameter."
+    ),
     NoteCode.POOR_FIT: (
         "The fit is poor: the residuals of {signal} are {factor:.3g} standard deviations of the noise. Something is "
         "missing in the model, so do not trust the intervals; run the diagnosis."
