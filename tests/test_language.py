@@ -21,7 +21,7 @@ PRIVATE = (
 )  # fmt: skip
 _PRIVATE = re.compile(rf"\b(?:{'|'.join(PRIVATE)})\b", re.IGNORECASE)
 MEDIAN, NINE_IN_TEN, FOLDS = 15, 28, 0.25  # words; words; colons and semicolons a sentence
-# 17,000 holds the eight notebooks of the gallery: 2,300 words of them are Python
+# 17,000 words hold the eight notebooks of the gallery, of which 950 are Python
 LONGEST_PAGE, ALL_PAGES, README_LINES = 1000, 17_000, 110  # words with code and tables, generated parts apart; lines
 
 
