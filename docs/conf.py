@@ -5,6 +5,7 @@ own data, so that no table is typed twice. Pages that begin with a notebook's he
 what they showed, and `-D nb_execution_mode=off` leaves that out.
 """
 
+import os
 import re
 import sys
 from pathlib import Path
@@ -48,7 +49,8 @@ napoleon_custom_sections = ["Source", "Differs"]
 napoleon_use_rtype = False
 
 nb_execution_mode = "cache"
-nb_execution_cache_path = str(ROOT / "build" / "notebooks")
+# One page shows measured logs where there are any: what it showed without them must not stand for that, nor the reverse
+nb_execution_cache_path = str(ROOT / "build" / f"notebooks{'-measured' * bool(os.environ.get('REAL_MEASUREMENTS'))}")
 nb_execution_timeout = 300  # s
 nb_execution_raise_on_error = True
 nb_execution_show_tb = True
