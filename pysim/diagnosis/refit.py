@@ -167,14 +167,17 @@ def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
     """The end of the search, by finer simulations where they are given.
 
     Costs that jump, as those of a model with a memory do, shorten its steps until none is left: so it begins anew where
-    it ended, until that gains no more.
+    it ended, until that gains no more, or as many points were tried as a search may try.
     """
-    fit = advance(fit, _optimiser().max_iterations)
+    most = _optimiser().max_iterations
+    fit = advance(fit, most)
     if simulation is not None and simulation != fit.simulation and fit.good:
         finer = begin(fit.candidate, fit.values, simulation, fit)
-        fit = advance(finer, _optimiser().max_iterations) if finer.good else fit
-    while fit.good and not fit.candidate.has_events:
-        again = advance(begin(fit.candidate, fit.values, fit.simulation, fit), _optimiser().max_iterations)
+        fit = advance(finer, most) if finer.good else fit
+    tried = fit.state.tried
+    while fit.good and not fit.candidate.has_events and tried < most:
+        again = advance(begin(fit.candidate, fit.values, fit.simulation, fit), most - tried)
+        tried += again.state.tried
         if not again.good or fit.point.cost - again.point.cost < _optimiser().tolerance:
             break
         fit = again
