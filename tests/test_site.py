@@ -3,6 +3,8 @@
 import importlib.util
 import inspect
 import re
+import subprocess
+import sys
 from pathlib import Path
 from types import ModuleType
 
@@ -94,3 +96,24 @@ def test_examples_are_short(page: Path) -> None:
     for words, line, source in blocks(page.read_text(encoding="utf-8")):
         if words.partition(" ")[0] == "python":
             assert sum(bool(one.strip()) for one in source.splitlines()) <= 15, f"{page.name}, line {line}"
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(importlib.util.find_spec("sphinx") is None, reason="the site's packages: python3 run.py docs")
+def test_the_site_builds_without_a_warning_and_every_notebook_runs(tmp_path: Path) -> None:
+    """Each notebook asserts what its page says; their seconds are printed."""
+    notebooks = [page.stem for page in PAGES if "{code-cell}" in page.read_text("utf-8")]
+    build = [
+        sys.executable,
+        "-m",
+        "sphinx",
+        "-W",
+        "--keep-going",
+        "-D",
+        f"nb_execution_cache_path={tmp_path / 'cache'}",
+    ]
+    done = subprocess.run([*build, str(DOCS), str(tmp_path / "site")], capture_output=True, text=True, cwd=ROOT)
+    ran = [line for line in done.stdout.splitlines() if "Executed notebook in" in line]
+    print("\n".join(ran))
+    assert done.returncode == 0, done.stderr[-3000:]
+    assert sorted(Path(line.partition(":")[0]).stem for line in ran) == sorted(notebooks)
