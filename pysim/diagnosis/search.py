@@ -305,7 +305,7 @@ class Search:
         self.tried = max(self.tried, len(tried) + len(sensors))
 
         def raced() -> list[FinalFit]:
-            return race(starts.runners(tried, sensors, self.tried, sizes), self.settings, self.fine)
+            return race(starts.runners(sizes, sensors, self.tried), self.settings, self.fine)
 
         part = f"beside {' + '.join(present.candidate.labels) or 'the base model'}"
         candidates = [one.candidate for one in tried] + [fit.candidate for fit in sensors]

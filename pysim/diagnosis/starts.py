@@ -10,7 +10,7 @@ from functools import partial
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate, Values
 from pysim.diagnosis.refit import FinalFit, Runner, begin, cost_at
-from pysim.diagnosis.screen import Screened, own_values
+from pysim.diagnosis.screen import Screened, best_of_each, own_values
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Simulation
 
@@ -46,17 +46,15 @@ class Starts:
         fit = self.beside(rival.candidate.transient)
         return fit if fit.simulation == rival.simulation else self.here(rival.candidate.transient)
 
-    def runners(
-        self, screened: Sequence[Screened], sensors: Sequence[FinalFit], tried: int, sizes: Sequence[Screened]
-    ) -> list[Runner]:
+    def runners(self, sizes: Sequence[Screened], sensors: Sequence[FinalFit], tried: int) -> list[Runner]:
         """What is refitted, the most promising first; near the floor only what may pass the test of its gain.
 
         Args:
-            screened: effects at their best size, the best first.
+            sizes: effects at every size, the best first.
             sensors: the model with a sensor's error more, each.
             tried: all that is looked at, for what chance could do.
-            sizes: effects at every size.
         """
+        screened = best_of_each(sizes)
         found = [self._runner(one.candidate, one.values, self._most(one.gain)) for one in screened]
         found += [self._of_sensor(fit) for fit in sensors]
         if not self.near:  # the model's parameters may be those of a wrong optimum

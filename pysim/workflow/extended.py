@@ -8,7 +8,7 @@ from pathlib import Path
 
 from pysim.io import shown_unit, write_file
 from pysim.present.diagnosis.words import limits_sentence
-from pysim.types import Dataset, Diagnosis
+from pysim.types import Dataset, Diagnosis, LearnedLaw
 from pysim.workflow.learned import law_file, with_laws
 from pysim.workflow.session import SessionParts
 from pysim.workflow.shell import command_line
@@ -33,14 +33,13 @@ def write_extended(
     """
     fitted = {e.name: e.value for e in found.estimates if "@" not in e.name}
     files: dict[str, Path] = {}
-    for law in found.learned:  # those of an answer before
-        (folder / law_file(law)).unlink(missing_ok=True)
     effects, variants = ([], None) if parts.variants is None else with_laws(found, parts.variants, folder)
     if effects and variants is not None:
         name = extended_name(variants.class_name, [effect.class_name for effect in effects])
         states, fmu = parts.model.abilities.states, folder / f"{name}.fmu"
         values = {key: value for key, value in {**parts.overrides, **fitted}.items() if key not in states}
-        variants.write(effects, folder, fmu, name, values, _comment(found, parts, place or folder, name))
+        inside = [law for law in found.learned if folder / law_file(law) in variants.libraries]
+        variants.write(effects, folder, fmu, name, values, _comment(found, parts, place or folder, name, inside))
         files = {"modelica": folder / f"{name}.mo", "fmu": fmu}
         about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."
     else:
@@ -48,7 +47,7 @@ def write_extended(
     for k, law in enumerate(law for law in found.learned if law.modelica):
         key = "learned" if k == 0 else f"learned_{k + 1}"
         files[key] = folder / law_file(law)
-        if not files[key].exists():
+        if variants is None or files[key] not in variants.libraries:
             write_file(files[key], law.modelica)
     if fitted:
         files["parameters"] = folder / PARAMETERS
@@ -78,10 +77,14 @@ def _last(name: str) -> str:
     return name.rpartition(".")[2]
 
 
-def _comment(found: Diagnosis, parts: SessionParts, folder: Path, name: str) -> str:
-    """What it is, from which data, and when not to trust it."""
-    laws = [law for law in found.learned if law.modelica]
+def _comment(found: Diagnosis, parts: SessionParts, folder: Path, name: str, laws: Sequence[LearnedLaw]) -> str:
+    """What it is, from which data, and when not to trust it.
+
+    Args:
+        laws: learned ones that are in it.
+    """
     libraries = [folder / f"{name}.mo", *(folder / law_file(law) for law in laws), *parts.libraries]
+    inside = {law.slot for law in laws}
     own = [word for library in libraries for word in ("--library", str(library.resolve()))]
     build = command_line([name, *own], folder, program="fmu-build")  # whole paths, as it may be pasted anywhere
     added = [one.effect.name for one in found.effects]
@@ -92,6 +95,11 @@ def _comment(found: Diagnosis, parts: SessionParts, folder: Path, name: str) -> 
         "and evidence are in report.html beside this file.",
         f"Compiles by: {build}",
         "Do not trust it",
+        *(
+            f"- as the fitted model: it lacks the learned law at {law.slot}"
+            for law in found.learned
+            if law.slot not in inside
+        ),
         *(f"- {text}" for text in _limits(found, parts.dataset)),
     ]
     indent = {True: "  ", False: ""}

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from pysim.io import write_file
 from pysim.types import BadInput, Effect
 
 if TYPE_CHECKING:
@@ -66,40 +68,45 @@ def keep_law(
     Raises:
         BadInput: the model has no such slot, the file is there, or no class can be written for the slot.
     """
-    from pysim.diagnosis.learn.law_class import law_class
-    from pysim.effects import read_catalogue
-
-    slot, own = _slot(law, model, libraries), class_name_of(name)
+    own = class_name_of(name)
     if not re.fullmatch(r"[A-Za-z]\w*", own, re.ASCII):
         raise BadInput(f"{name!r} makes no name of a class; begin with a letter, such as my.damping")
     file = folder / f"{own}.mo"
     if file.exists():
         raise BadInput(f"{file} is there already; give the law another name or folder")
-    text = law_class(law, slot, own, libraries, effect=name, description=description, formula=formula, inner=inner)
-    folder.mkdir(parents=True, exist_ok=True)
-    file.write_text(text, encoding="utf-8")
-    return next(one for one in read_catalogue(*libraries, file) if one.class_name == own)
+    return _written(law, name, model, libraries, file, description=description, formula=formula, inner=inner)
+
+
+def _written(law: LearnedLaw, name: str, model: str, libraries: Sequence[Path], file: Path, **more: Any) -> Effect:
+    """The effect of a law's class, once that is in the file."""
+    from pysim.diagnosis.learn.law_class import law_class
+    from pysim.effects import read_catalogue
+
+    text = law_class(law, _slot(law, model, libraries), file.stem, libraries, effect=name, **more)
+    file.parent.mkdir(parents=True, exist_ok=True)
+    write_file(file, text)
+    return next(one for one in read_catalogue(*libraries, file) if one.class_name == file.stem)
 
 
 def with_laws(found: Diagnosis, variants: Variants, folder: Path) -> tuple[list[Effect], Variants]:
     """The effects of an answer and the laws that it learned, each the filling of a slot, and what builds models with
     them.
 
-    An effect in the slot of a law becomes part of the law's class. A law whose slot has a pair of effects stays out.
+    An effect in the slot of a law becomes part of the law's class. A law stays out where no class holds both.
 
     Args:
-        folder: gets the files of the laws; none of them may be there.
-    Raises:
-        BadInput: no class can be written.
+        folder: gets the files of the laws, which are among the libraries then.
     """
     effects, libraries = [one.effect for one in found.effects if one.effect.class_name], variants.libraries
     for law in found.learned:
-        beside = [one for one in effects if one.slot == law.slot]
-        if law.modelica and len(beside) < 2:
-            name, inner = _effect_name(law), next(iter(beside), None)
-            own = keep_law(law, name, variants.class_name, libraries, folder, inner=inner)
+        beside, file = [one for one in effects if one.slot == law.slot], folder / law_file(law)
+        if not law.modelica or len(beside) > 1:
+            continue
+        inner = next(iter(beside), None)
+        with suppress(BadInput):  # the effect's law is more than equations
+            own = _written(law, _effect_name(law), variants.class_name, libraries, file, inner=inner)
             effects = [*(one for one in effects if one is not inner), own]
-            libraries = (*libraries, folder / law_file(law))
+            libraries = (*libraries, file)
     return effects, replace(variants, libraries=libraries)
 
 

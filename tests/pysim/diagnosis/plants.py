@@ -14,6 +14,20 @@ from tests.known_answers.case import Case, Logs
 from tests.known_answers.plants import PLANTS
 
 FINE = Simulation(workers=Threads(1)).searching()
+# A limit of the mass: what holds it back beyond a place.
+STOPS = """
+package Stops
+  model Ends "End stops"
+    extends Mass.PartialForce;
+    parameter Real inverse_x_m(unit="1/m", min=0, max=200, nominal=5) = 0 "0 = off"
+      annotation(__HydraulicTestBench(inverse="x_m", limits="x"));
+  equation
+    f = noEvent(if x*inverse_x_m > 1 then -500*(x - 1/inverse_x_m)
+      elseif x*inverse_x_m < -1 then -500*(x + 1/inverse_x_m) else 0);
+    annotation(__HydraulicTestBench(effect="stops.ends", slot="force"));
+  end Ends;
+end Stops;
+"""
 
 
 @cache

@@ -16,21 +16,8 @@ from pysim.diagnosis.session import session
 from pysim.effects import read_catalogue
 from pysim.workflow.variants import Variants
 from tests.known_answers.plants import PLANTS
-from tests.pysim.diagnosis.plants import FINE, given, measured, refitted
+from tests.pysim.diagnosis.plants import FINE, STOPS, given, measured, refitted
 
-STOPS = """
-package Stops
-  model Ends "End stops"
-    extends Mass.PartialForce;
-    parameter Real inverse_x_m(unit="1/m", min=0, max=50, nominal=5) = 0 "0 = off"
-      annotation(__HydraulicTestBench(inverse="x_m", limits="x"));
-  equation
-    f = noEvent(if x*inverse_x_m > 1 then -50*(x - 1/inverse_x_m)
-      elseif x*inverse_x_m < -1 then -50*(x + 1/inverse_x_m) else 0);
-    annotation(__HydraulicTestBench(effect="stops.ends", slot="force"));
-  end Ends;
-end Stops;
-"""
 FORCE = -0.02  # N, constant: it shifts the mass by half its noise
 
 

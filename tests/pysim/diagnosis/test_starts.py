@@ -12,21 +12,7 @@ from pysim.diagnosis.starts import Starts
 from pysim.effects import read_catalogue
 from pysim.workflow.variants import Variants
 from tests.known_answers.plants import PLANTS
-from tests.pysim.diagnosis.plants import FINE, given, measured, refitted
-
-STOPS = """
-package Stops
-  model Ends "End stops"
-    extends Mass.PartialForce;
-    parameter Real inverse_x_m(unit="1/m", min=0, max=200, nominal=5) = 0 "0 = off"
-      annotation(__HydraulicTestBench(inverse="x_m", limits="x"));
-  equation
-    f = noEvent(if x*inverse_x_m > 1 then -500*(x - 1/inverse_x_m)
-      elseif x*inverse_x_m < -1 then -500*(x + 1/inverse_x_m) else 0);
-    annotation(__HydraulicTestBench(effect="stops.ends", slot="force"));
-  end Ends;
-end Stops;
-"""
+from tests.pysim.diagnosis.plants import FINE, STOPS, given, measured, refitted
 
 
 def runners(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = None) -> list[Runner]:
@@ -34,8 +20,7 @@ def runners(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = 
         return fit
 
     found = screen(models, beside, FINE, sizes)
-    best = best_of_each(found)
-    return Starts(beside, FINE, near, Settings()).runners(best, [], len(best), found)
+    return Starts(beside, FINE, near, Settings()).runners(found, [], len(best_of_each(found)))
 
 
 def begun(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = None) -> Mapping[str, list[FinalFit]]:

@@ -83,3 +83,21 @@ def test_a_law_whose_slot_has_a_pair_of_effects_stays_out(tmp_path: Path) -> Non
     effects, variants = with_laws(found, Variants(PUMP, (STANDARD_LIBRARY,)), tmp_path)
     assert [effect.name for effect in effects] == ["friction.coulomb", "spring.preload"]
     assert variants.libraries == (STANDARD_LIBRARY,)
+
+
+def test_a_law_stays_out_beside_an_effect_that_is_more_than_equations(tmp_path: Path) -> None:
+    own = tmp_path / "Own.mo"
+    own.write_text("""model Drag "Drag"
+      extends HydraulicTestBench.Interfaces.PartialPistonForce;
+      parameter Real c(unit="N.s/m", min=0, max=1e5, nominal=1e3) = 0 "Drag, 0 = off";
+    algorithm
+      f := -c*v;
+      annotation(__HydraulicTestBench(effect="own.drag", slot="pistonForce"));
+    end Drag;""")
+    libraries = (STANDARD_LIBRARY, own)
+    drag = next(effect for effect in read_catalogue(*libraries) if effect.name == "own.drag")
+    found = with_classes(answer(LAW, FoundEffect(drag, "pistonForce", ())), PUMP, libraries)
+    effects, variants = with_laws(found, Variants(PUMP, libraries), tmp_path / "better")
+    assert effects == [drag]
+    assert variants.libraries == libraries
+    assert not (tmp_path / "better").exists()
