@@ -40,7 +40,8 @@ class Candidate:
         nuisances: sensor errors that are free.
         problem: the model, its free numbers and the measurements beside it.
         places: effect name -> name ahead of its parameters in the model.
-        transient: whether stepped sines run as the bench ran them, since the model may have no periodic orbit.
+        transient: whether stepped sines run as the bench ran them, since the model may have no periodic orbit, or more
+            than one.
         has_events: whether a law in the model has: its slopes are then those of secants.
         precision: (n, n) of a prior of the free parameters, in the search's numbers; none where None.
     """
@@ -162,14 +163,14 @@ class Models:
         """The model with these effects, in one that has more where there is one.
 
         Args:
-            transient: as models with events are compared in any case.
+            transient: as models with events or a memory are compared in any case.
         Raises:
             BadInput: it cannot be made.
         """
         effects = tuple(effects)
         laws = tuple(map(searched, effects))
         built, has_events = self._with_others(laws), any(map(switches, laws))
-        transient |= has_events or self.all_transient
+        transient |= self._transient(laws)
         model, places = self._variant(built)
         problem = self._problem(built, transient)
         own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
@@ -185,9 +186,12 @@ class Models:
         """
         effects = tuple(effects)
         has_events = any(map(switches, effects))
-        transient = has_events or self.all_transient
+        transient = self._transient(effects)
         _, places = self._variant(effects)
         return Candidate(effects, tuple(nuisances), self._problem(effects, transient), places, transient, has_events)
+
+    def _transient(self, effects: Sequence[Effect]) -> bool:
+        return self.all_transient or any(one.memory or switches(one) for one in effects)
 
     @cached_property
     def all_transient(self) -> bool:

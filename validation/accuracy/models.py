@@ -10,7 +10,7 @@ from pysim.thesis import pump_model
 from pysim.types import Dataset, Fit, Model
 from validation.accuracy.judged import HELD_OUT, Judged, judged
 from validation.accuracy.transfer import black_box
-from validation.blind.benchmark.workshop import workshop
+from validation.asked import PUMP
 from validation.diagnosis.answers import read_answers
 from validation.diagnosis.sets import read_set
 from validation.fit_thesis.case import LOCKED, NAMES
@@ -41,9 +41,10 @@ def fitted(label: str) -> Fit:
 
 def diagnosed() -> tuple[Model, list[Parameter]]:
     """The base model with the effects that the stored diagnosis added, and their strengths as it found them."""
-    answer, shop = read_answers()[SET], workshop()
-    effects = [shop.effect(name) for name in answer.added]
-    model, places = shop.variant(effects)
+    answer = read_answers()[SET]
+    known = {effect.name: effect for effect in PUMP.catalogue}
+    effects = [known[name] for name in answer.added]
+    model, places = PUMP.variants.build(effects)
     strengths = [
         Parameter(f"{places[effect.name]}.{parameter.name}", answer.values[f"{effect.name}: {parameter.name}"][0])
         for effect in effects

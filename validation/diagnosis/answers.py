@@ -10,10 +10,10 @@ from pathlib import Path
 from typing import Any
 
 from fmu_build.version import this_commit
-from pysim.diagnosis import diagnose, session
+from pysim.diagnosis import diagnose
 from pysim.io import write_file
 from pysim.types.answer import Diagnosis
-from validation.blind.benchmark.workshop import workshop
+from validation.asked import PUMP
 from validation.diagnosis.intervals import named
 from validation.diagnosis.sets import read_set
 
@@ -43,8 +43,7 @@ class Kept:
 
 def answered(name: str, workers: int | None = None) -> Diagnosis:
     """Diagnose that set with the base model and the whole catalogue."""
-    shop = workshop()
-    return diagnose(session(shop.model, read_set(name), shop.catalogue, shop.variant, workers=workers))
+    return diagnose(PUMP.session(read_set(name), workers=workers))
 
 
 def kept(found: Diagnosis) -> Kept:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 import time
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -14,19 +14,16 @@ from typing import Any
 import numpy as np
 from fmpy import simulate_fmu
 
-from fmu_build import build
 from pysim.diagnosis import Session, diagnose
 from pysim.diagnosis.learn.curve import curve_basis
-from pysim.diagnosis.learn.law_class import law_class
-from pysim.effects import STANDARD_LIBRARY, read_catalogue, variant
-from pysim.types import Dataset, Effect, Model
-from pysim.types.answer import Diagnosis, ErrorStep, LearnedLaw
-from pysim.workflow import Variants, open_session
+from pysim.types import Dataset, Effect
+from pysim.types.answer import Diagnosis, LearnedLaw
+from pysim.workflow.learned import with_laws
+from validation.asked import PUMP, Step, steps_of
 from validation.batch import Line, serve
 from validation.held_out import held_out_rms
 from validation.learned.cases import CASES, NOISE, LearnedCase, measure
 
-BASE = "HydraulicTestBench.Pump.FreeGreyBox"
 _ALIKE = {"xp": "x", "piston.x": "x", "linkage.s": "x", "xp_t": "v", "piston.v": "v", "spool.u": "s", "u": "s",
           "chamber1.p": "p1", "chamber2.p": "p2"}  # fmt: skip
 # Powers of a mechanism's scale. Angle, spool and pressures stay the same where its lengths are divided by a number and
@@ -105,17 +102,12 @@ def answer(case: LearnedCase, ask: Callable[[Session], Diagnosis] = diagnose) ->
         ask: a diagnosis.
     """
     measured = measure(case)
-    session = open_session(BASE, measured.given)
+    session = PUMP.session(measured.given)
     wall, cpu = time.monotonic(), time.process_time()
     found = ask(session)
     wall, cpu = time.monotonic() - wall, time.process_time() - cpu
-    effects = tuple(one.effect for one in found.effects if one.effect.class_name)
-    base = next((step for step in found.history if step.step == "refit"), None)
-    with TemporaryDirectory(prefix="learned-") as folder:
-        variants, learned = classes_of(found, session, Path(folder))
-        final, places = variants.build([*effects, *learned])
-        exported = difference(variants, [*effects, *learned], Path(folder)) if learned else None
-    values = values_in(final, found, places)
+    found, effects = PUMP.whole(found), tuple(one.effect for one in found.effects if one.effect.class_name)
+    steps = steps_of(found, PUMP)
     first = found.learned[0] if found.learned else None
     return Answer(
         case.name,
@@ -124,65 +116,36 @@ def answer(case: LearnedCase, ask: Callable[[Session], Diagnosis] = diagnose) ->
         first.formula if first else "",
         *_right(case, found.learned, effects),
         None if first is None else band(case, first),
-        error(session.model, measured.unseen, values_of(base)),
-        error(final, measured.unseen, values),
+        error(steps[0], measured.unseen),
+        error(steps[-1], measured.unseen),
         found.history[-1].validate if found.history else None,
-        error(final, measured.given, values, "validate"),
-        exported,
+        error(steps[-1], measured.given, "validate"),
+        difference(found) if found.learned else None,
         wall,
         cpu,
     )
 
 
-def classes_of(found: Diagnosis, session: Session, folder: Path) -> tuple[Variants, list[Effect]]:
-    """The learned laws as effects, their classes in that folder."""
-    slots = {slot.name: slot for slot in session.slots}
-    files = [folder / f"Learned{k}.mo" for k in range(1, len(found.learned) + 1)]
-    for law, file in zip(found.learned, files, strict=True):
-        name = file.stem
-        text = law_class(law, slots[law.slot], name, [STANDARD_LIBRARY], effect=f"learned.{name.lower()}")
-        file.write_text(text, encoding="utf-8")
-    return Variants(BASE, (STANDARD_LIBRARY, *files)), [effect for file in files for effect in read_catalogue(file)]
-
-
-def values_in(model: Model, found: Diagnosis, places: Mapping[str, str]) -> dict[str, float]:
-    """The last model's parameters, by their names in the model that has the laws' classes."""
-    values = dict(values_of(found.history[-1] if found.history else None))
-    for law in found.learned:
-        values |= law.parameters
-    for one in found.effects:
-        place = places.get(one.effect.name)
-        for estimate in one.estimates if place else ():
-            values[f"{place}.{estimate.name.removeprefix(f'{one.place}.')}"] = estimate.value
-    known = {variable.name for variable in model.variables}
-    return {name: value for name, value in values.items() if name in known}
-
-
-def difference(variants: Variants, effects: Sequence[Effect], folder: Path) -> float:
+def difference(found: Diagnosis) -> float:
     """Between a second's run of both kinds of FMU in FMPy, after a step of the command, over the range."""
-    made = variant(variants.class_name, effects, variants.libraries, name="Export")
-    (folder / "Export.mo").write_text(made.text, encoding="utf-8")
     runs = []
-    for fmi in (2, 3):
-        libraries = [*variants.libraries, folder / "Export.mo"]
-        fmu = build("Export", folder / f"export{fmi}.fmu", libraries=libraries, fmi=fmi)
-        done = simulate_fmu(
-            str(fmu), stop_time=1.0, output_interval=1e-3, relative_tolerance=1e-8, fmi_type="ModelExchange",
-            start_values={"alphaCMD": 30.0}, output=["alphaPercent"],
-        )  # fmt: skip
-        runs.append(np.asarray(done["alphaPercent"]))
+    with TemporaryDirectory(prefix="learned-") as folder:
+        effects, variants = with_laws(found, PUMP.variants, Path(folder))
+        for fmi in (2, 3):
+            fmu = Path(folder) / f"export{fmi}.fmu"
+            variants.write(effects, Path(folder), fmu, fmi=fmi)
+            done = simulate_fmu(
+                str(fmu), stop_time=1.0, output_interval=1e-3, relative_tolerance=1e-8, fmi_type="ModelExchange",
+                start_values={"alphaCMD": 30.0}, output=["alphaPercent"],
+            )  # fmt: skip
+            runs.append(np.asarray(done["alphaPercent"]))
     return float(np.max(np.abs(runs[0] - runs[1])) / np.ptp(runs[0]))
 
 
-def values_of(step: ErrorStep | None) -> Mapping[str, float]:
-    """The parameters of a step's model."""
-    return {one.name: one.value for one in step.estimates} if step is not None else {}
-
-
-def error(model: Model, data: Dataset, values: Mapping[str, float], use: str = "test") -> float | None:
+def error(step: Step, data: Dataset, use: str = "test") -> float | None:
     """Root mean square of simulated minus reading, over the noise, of all signals."""
     try:
-        sizes = held_out_rms(model, data, values, use)
+        sizes = held_out_rms(step.model, data, step.values, use, sensors=step.sensors)
     except Exception:  # whatever stops a run, the model has no error
         return None
     return float(np.sqrt(np.mean([(size / NOISE[name]) ** 2 for name, size in sizes.items()])))

@@ -2,30 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
-from pysim.diagnosis import diagnose, session
-from pysim.types import Model
-from pysim.types.answer import SensorError
+from pysim.diagnosis import diagnose
+from validation.asked import Step, steps_of
 from validation.mismatch.tasks import Task
-
-
-@dataclass(frozen=True)
-class Step:
-    """The model at one step.
-
-    Args:
-        name: "refit" of the base model, or the effects that the step added.
-        model: with the effects so far.
-        values: its parameters, by their names there.
-        sensors: errors of sensors that it has.
-    """
-
-    name: str
-    model: Model
-    values: Mapping[str, float]
-    sensors: tuple[SensorError, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -35,23 +16,18 @@ class Answer:
     Args:
         effects: names, the one whose leaving-out costs most first.
         complete: whether nothing else is missing; None where that was not answered.
-        steps: from the refitted base model to the last effect.
+        steps: from the refitted base model to the last effect or law.
+        learned: places of laws that were learned.
     """
 
     effects: tuple[str, ...]
     complete: bool | None
     steps: tuple[Step, ...]
+    learned: tuple[str, ...] = ()
 
 
 def answer(task: Task) -> Answer:
     """Diagnose a task without the logs that are withheld."""
-    found = diagnose(session(task.model, task.given, task.catalogue, task.build))
-    effects = {one.effect.name: one.effect for one in found.effects if one.effect.class_name}
-    steps: list[Step] = []
-    names: list[str] = []
-    for step in found.history[1:]:  # the first is the untouched model
-        if steps:
-            names += step.step.split(" + ")
-        built = task.build([effects[name] for name in names if name in effects])[0]
-        steps.append(Step(step.step, built, {e.name: e.value for e in step.estimates}, step.sensors))
-    return Answer(tuple(one.effect.name for one in found.effects), found.complete, tuple(steps))
+    found = task.subject.whole(diagnose(task.subject.session(task.given)))
+    names, laws = tuple(one.effect.name for one in found.effects), tuple(law.slot for law in found.learned)
+    return Answer(names, found.complete, steps_of(found, task.subject), laws)

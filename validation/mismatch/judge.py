@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 from itertools import pairwise
 
+from validation.asked import Step
 from validation.held_out import held_out_rms
-from validation.mismatch.answer import Answer, Step
+from validation.mismatch.answer import Answer
 from validation.mismatch.tasks import Task
 
 RISE = 1.01  # times the error of the step before
@@ -41,7 +42,7 @@ class Judged:
         errors = " -> ".join(f"{error:.4g}" for error in self.errors) + (" RISES" if self.rise > RISE else "")
         best = "" if self.task.perfect is None else f" (true model {self.task.perfect:.3f})"
         verdict = "?" if self.wrong is None else "; ".join(self.wrong) or "right"
-        named = ", ".join(self.answer.effects) or "nothing"
+        named = ", ".join((*self.answer.effects, *(f"a law at {place}" for place in self.answer.learned))) or "nothing"
         return f"{self.task.name:<22} {sought:<42} named {named:<42} {said:<9} {errors}{best}  {verdict}"
 
 

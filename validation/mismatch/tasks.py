@@ -3,20 +3,16 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
-from pysim.effects import STANDARD_LIBRARY, fitting, read_catalogue
 from pysim.io import read_dataset
-from pysim.types import BadInput, Dataset, Effect, Model
-from validation.blind.benchmark.workshop import BASE, workshop
+from pysim.types import BadInput, Dataset
+from validation.asked import PUMP, Subject
 from validation.real.machines import MACHINES
-
-Build = Callable[[Sequence[Effect]], tuple[Model, Mapping[str, str]]]
 
 _WITHHELD = "stochastic/Tp0.5_heldout.txt"
 _COLUMNS = MappingProxyType({"alphaPercent": "noise_percent", "u": "noise_u"})  # noise of a column in a truth's file
@@ -64,8 +60,7 @@ class Task:
     Args:
         name: of the data set.
         dataset: all logs; those of use "test" are for the judge alone.
-        catalogue: effects to consider.
-        build: the base model with effects, and effect name -> the name ahead of its parameters there.
+        subject: the base model and its catalogue.
         right: the right answer; None where it is not known.
         noise: of each signal, in its unit, for errors as multiples of it; empty where nobody knows it.
         perfect: error of the true model on the log withheld, over the noise; None where it is not known.
@@ -73,16 +68,10 @@ class Task:
 
     name: str
     dataset: Dataset
-    catalogue: tuple[Effect, ...]
-    build: Build
+    subject: Subject
     right: Right | None
     noise: Mapping[str, float] = field(default_factory=dict)
     perfect: float | None = None
-
-    @cached_property
-    def model(self) -> Model:
-        """The base model."""
-        return self.build(())[0]
 
     @property
     def given(self) -> Dataset:
@@ -103,15 +92,14 @@ def read_task(folder: Path, name: str, *, specified: bool = True) -> Task:
     if name.startswith("real-"):
         machine = MACHINES[name.removeprefix("real-")]
         data = machine.measurements(folder)
-        return Task(name, data, machine.catalogue, machine.build, Right(_REAL[machine.name]))
+        return Task(name, data, machine.subject, Right(_REAL[machine.name]))
     data = read_dataset(folder / name)
     if _WITHHELD not in [record.source for record in data.records]:
         raise BadInput(f"{name}: it has no {_WITHHELD} to withhold; only the simulated pumps' sets have")
     records = tuple(replace(r, use="test") if r.source == _WITHHELD else r for r in data.records)
     signals = data.signals if specified else tuple(replace(signal, noise=None) for signal in data.signals)
     shown = replace(data, signals=signals, records=records)
-    catalogue = fitting(read_catalogue(STANDARD_LIBRARY), BASE, [STANDARD_LIBRARY])
-    task = Task(name, shown, catalogue, lambda effects: workshop().variant(effects), None)
+    task = Task(name, shown, PUMP, None)
     path = folder / f"{name}.truth.json"
     if not path.is_file():
         return task

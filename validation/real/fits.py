@@ -39,7 +39,7 @@ def fitted(machine: Machine, root: Path, effects: Sequence[str], starts: Mapping
             the nominal sizes of effects.
     """
     chosen = machine.effects(effects)
-    model, places = machine.build(chosen)
+    model, places = machine.subject.variants.build(chosen)
     free = [Parameter(name, start=starts.get(name)) for name in machine.free]
     for effect in chosen:
         for one in effect.parameters:

@@ -11,10 +11,9 @@ from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 
-import fmu_build
-from pysim.effects import fitting, read_catalogue, variant
-from pysim.io import read_dataset, read_model
-from pysim.types import Dataset, Effect, Model
+from pysim.io import read_dataset
+from pysim.types import Dataset, Effect
+from validation.asked import Subject
 
 ENVIRONMENT = "REAL_MEASUREMENTS"
 """Names the folder that holds the logs; they are not part of this distribution."""
@@ -48,25 +47,14 @@ class Machine:
         return self.folder / f"{self.class_name.partition('.')[0]}.mo"
 
     @cached_property
-    def catalogue(self) -> tuple[Effect, ...]:
-        """What may be missing."""
-        return fitting(read_catalogue(self.library), self.class_name, [self.library])
+    def subject(self) -> Subject:
+        """The base model, and what may be missing."""
+        return Subject(self.class_name, (self.library,))
 
     def effects(self, names: Sequence[str]) -> tuple[Effect, ...]:
         """Of these names, in their order."""
-        known = {effect.name: effect for effect in self.catalogue}
+        known = {effect.name: effect for effect in self.subject.catalogue}
         return tuple(known[name] for name in names)
-
-    def build(self, effects: Sequence[Effect] = ()) -> tuple[Model, Mapping[str, str]]:
-        """The base model with effects, and effect name -> the name ahead of its parameters there."""
-        if not effects:
-            return read_model(fmu_build.build(self.class_name, libraries=[self.library])), {}
-        name = f"{self.class_name.partition('.')[0]}Variant"
-        made = variant(self.class_name, effects, [self.library], name=name)
-        with tempfile.TemporaryDirectory(prefix="real-") as folder:
-            source = Path(folder) / f"{name}.mo"
-            source.write_text(made.text, encoding="utf-8")
-            return read_model(fmu_build.build(name, libraries=[self.library, source])), made.places
 
     def measurements(self, root: Path, held_out: str = "test") -> Dataset:
         """Its logs by our own description, which says how inputs are held and how the plant stood at their first row.

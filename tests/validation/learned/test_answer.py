@@ -104,7 +104,8 @@ def test_a_diagnosis_that_knows_the_law_is_right() -> None:
         )
         step = ErrorStep("refit", None, None, None, {}, False, 0.0, estimates=estimates)
         known = replace(law(case, "v", "x", sd=1.0), parameters=right)
-        return Diagnosis((), False, Left({}, None, None), (), (), (step,), (), learned=(known,))
+        history = (replace(step, step="model"), step, replace(step, step="the law"))
+        return Diagnosis((), False, Left({}, None, None), (), (), history, (), learned=(known,))
 
     found = answer(case, ask)
     assert (found.place, found.variables, found.trouble) == (True, True, "")

@@ -7,9 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pysim.types import BadInput, Dataset, Model
+from pysim.types import BadInput, Dataset
+from validation.asked import Step, Subject
 from validation.initial_states.mass import TRUTH, force, logged, mass_model, measured, motion
-from validation.mismatch.answer import Answer, Step
+from validation.mismatch.answer import Answer
 from validation.mismatch.case import ENVIRONMENT, run
 from validation.mismatch.judge import RISE, judged
 from validation.mismatch.tasks import Right, Task, read_task
@@ -100,7 +101,7 @@ def mass_task() -> Task:
         states = motion(time, pushed, start) + 1e-3 * rng.standard_normal((time.size, 2))
         records.append(logged(use, time, pushed, states, ("x",), use))
     data: Dataset = measured("mass", tuple(records), {"x": 1e-3})
-    return Task("mass", data, (), lambda _: (mass_model(), {}), Right((("stiff",),)), {"x": 1e-3}, 1.0)
+    return Task("mass", data, Subject("Mass"), Right((("stiff",),)), {"x": 1e-3}, 1.0)
 
 
 def test_errors_are_those_of_the_log_withheld_over_the_noise_and_a_rise_is_seen() -> None:
@@ -115,7 +116,6 @@ def test_errors_are_those_of_the_log_withheld_over_the_noise_and_a_rise_is_seen(
     assert worse.rise > RISE
     assert worse.wrong is None
     assert worse.errors[0] == pytest.approx(1e-3, rel=0.07)
-    assert isinstance(task.model, Model)
 
 
 def test_the_case_asks_for_every_set_of_the_folder_and_skips_the_others(

@@ -29,9 +29,9 @@ def driven(model: Model, **overrides: float) -> np.ndarray:
 
 @every_machine
 def test_effects_that_are_off_change_nothing_and_each_that_is_on_does(machine: Machine) -> None:
-    chosen = [effect for effect in machine.catalogue if not effect.bypass]
-    model, places = machine.build(chosen)
-    base = driven(machine.build()[0])
+    chosen = [effect for effect in machine.subject.catalogue if not effect.bypass]
+    model, places = machine.subject.variants.build(chosen)
+    base = driven(machine.subject.model)
     size = np.ptp(base)
     np.testing.assert_allclose(driven(model), base, atol=1e-6 * size)
     for effect in chosen:
@@ -42,10 +42,10 @@ def test_effects_that_are_off_change_nothing_and_each_that_is_on_does(machine: M
 
 @every_machine
 def test_effects_that_are_bypassed_tend_to_nothing_as_they_shrink(machine: Machine) -> None:
-    base = driven(machine.build()[0])
-    for effect in machine.catalogue:
+    base = driven(machine.subject.model)
+    for effect in machine.subject.catalogue:
         if effect.bypass:
-            model, places = machine.build([effect])
+            model, places = machine.subject.variants.build([effect])
             (parameter,) = effect.parameters
             name = f"{places[effect.name]}.{parameter.name}"
             off, on = (driven(model, **{name: value}) for value in (0.0, parameter.nominal))
