@@ -9,22 +9,27 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 import pytest
 
-from pysim.diagnosis.candidate import switches
+from pysim.diagnosis.candidate import searched, switches
+from pysim.effects import variant
 from pysim.io import read_model
 from pysim.simulate import simulate
-from pysim.types import Experiment
+from pysim.types import Experiment, Signal
 from tests.modelica.built import FINE
 from tests.modelica.effects import (
+    BASE,
     BYPASSED,
     CATALOGUE,
     EXACT,
+    TIGHT,
     RightHandSide,
+    built_variant,
     model,
     pump,
     ran,
     settings,
     states,
 )
+from tests.modelica.library import LIBRARY
 from tests.modelica.test_slots import ALPHA_MAX, BETA, PARAMETERS
 
 STANDARD = {  # effects.md: name -> (slot, strengths)
@@ -93,6 +98,22 @@ def test_play_that_is_off_is_off_from_any_start() -> None:
         found.append(simulate(model(names), run, solver=FINE)["alphaPercent"])
     assert found[0][0] > 10
     assert np.allclose(found[1], found[0], rtol=0, atol=1e-5)
+
+
+def test_what_a_search_builds_together_is_the_base_model_while_it_is_off() -> None:
+    """A law that only comes close to off, such as a short lag, is beside other effects no longer what a fit absorbs."""
+    laws = [law for law in map(searched, CATALOGUE.values()) if not (law.bypass or switches(law))]
+    made = variant(BASE, laws, [LIBRARY], name="Variant")
+    off = {made.parameter(law.name, p.name): float(p.off or 0) for law in laws for p in law.strengths}
+    times = np.arange(0.0, 1.5, 1e-3)
+    knots = np.arange(0.0, 1.51, 0.005)
+    command = Signal.through(knots, (1 - np.exp(-knots / 0.1)) * (15 + 35 * np.sin(2 * np.pi * 6 * knots)))
+    found = []
+    for built, values in ((model(()), {}), (read_model(built_variant(made)), off)):
+        run = Experiment(times, ("alphaPercent",), {"alphaCMD": command}, values, rates={"alphaCMD_t": "alphaCMD"})
+        found.append(simulate(built, run, solver=TIGHT)["alphaPercent"])
+    assert np.ptp(found[0]) > 20
+    assert np.allclose(found[1], found[0], rtol=0, atol=1e-4)  # percent; a lag of 50 us would be 0.06
 
 
 @pytest.mark.slow

@@ -9,7 +9,7 @@ protected
 equation
   der(y) = moved/T_held;
   der(moved) = (12*(s - y) - 6*moved)/T_held;
-  annotation(__HydraulicTestBench(smooth="card.sampling", slot="cardOutput"), Documentation(info="<html>
+  annotation(__HydraulicTestBench(smooth="card.sampling", slot="cardOutput", bypass=true), Documentation(info="<html>
 <p>What is held between samples is late by half a sampling time in the mean. The law has the series of
 (1 - exp(-s T<sub>s</sub>))/(s T<sub>s</sub>) up to the square of s.</p>
 <p><b>Source:</b> Franklin, Powell and Workman, Digital Control of Dynamic Systems, 1998, section 5.3, for what a hold
