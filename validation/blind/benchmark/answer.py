@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import sys
 import time
 from collections.abc import Mapping
@@ -13,9 +14,10 @@ import numpy as np
 from pysim.diagnosis import diagnose
 from pysim.types import BadInput, Record
 from pysim.types.answer import Diagnosis, ErrorStep
-from validation.asked import PUMP
+from validation.asked import PUMP, Step, steps_of
 from validation.batch import Line, serve
-from validation.blind.plant import FEW_SINES, Case, Measured, cases, measure
+from validation.blind.plant import FEW_SINES, UNSEEN, Case, Measured, cases, measure
+from validation.held_out import held_out_rms
 
 _COLUMNS = ("alphaPercent", "u")
 
@@ -25,8 +27,8 @@ class Answer:
     """What is kept of one case.
 
     Args:
-        kind: "none" | "named" | "beyond" | "left-out" | "pair".
-        truth: effects in force, whether or not the catalogue has them.
+        kind: "none" | "named" | "shaped" | "beyond" | "left-out" | "pair".
+        truth: right names of the effects in force, whether or not the catalogue has them.
         nuisances: kinds of nuisance in force.
         named: effects of the catalogue that the diagnosis names, in its order.
         sensors: sensor errors that it names.
@@ -34,7 +36,8 @@ class Answer:
         second: the best two effects beside the refitted base model.
         ties: groups of names that it cannot tell apart.
         complete: whether it says that nothing else is missing.
-        held_out: rms over the stated noise of the held-out logs, by step of the error history.
+        errors: step -> error of its model on the wave that the diagnosis was not given, against the readings without
+            noise and over the noise, root mean square; none of a model that cannot be simulated there.
         detectability: squares over noise by which the refitted base model is off the noise-free fitted readings.
         cpu, wall: s of the diagnosis, one thread, compiling included.
         stages: wall time of each of its stages, s.
@@ -51,7 +54,7 @@ class Answer:
     second: tuple[str, ...] = ()
     ties: tuple[tuple[str, ...], ...] = ()
     complete: bool = False
-    held_out: Mapping[str, float] | None = None
+    errors: Mapping[str, float | None] | None = None
     detectability: float | None = None
     cpu: float = 0.0
     wall: float = 0.0
@@ -63,17 +66,22 @@ class Answer:
         """Whether it says that something is missing which has no name."""
         return not (self.trouble or self.named) and (bool(self.learned) or not self.complete)
 
+    @property
+    def residuals(self) -> tuple[float, ...]:
+        """Of each step on that wave as it would be logged: the noise counts too, and a model that fails is infinite."""
+        return tuple(math.inf if one is None else math.hypot(1.0, one) for one in (self.errors or {}).values())
+
     def __str__(self) -> str:
         if self.trouble:
             return f"{self.case}: {self.trouble}"
         truth, named, ties = (
             ", ".join(names) or "-" for names in (self.truth, (*self.named, *self.sensors), map("|".join, self.ties))
         )
-        error = " -> ".join(f"{value:.3f}" for value in (self.held_out or {}).values())
+        steps = " -> ".join(f"{one:.3f}" for one in self.residuals)
         said = "complete" if self.complete else "more is missing"
         where = f"; learned at {', '.join(self.learned)}" if self.learned else ""
         return (
-            f"{self.case}: truth {truth}; named {named}{where}; tied {ties}; {said}; held out {error}; "
+            f"{self.case}: truth {truth}; named {named}{where}; tied {ties}; {said}; unseen {steps}; "
             f"detectability {self.detectability or 0:.3g}; {self.cpu:.0f} CPU s, {self.wall:.0f} s"
         )
 
@@ -94,29 +102,27 @@ def answer(name: str) -> Line:
     case = next((case for case in cases(int(seed)) if case.name == own), None)
     if case is None:
         raise BadInput(f"the table of seed {seed} has no case {own}; --names finds some by a pattern")
-    measured = measure(case)
-    return asdict(replace(examine(case, _few(measured) if few else measured), case=name))
+    return asdict(replace(examine(case, measure(case), few=bool(few)), case=name))
 
 
-def _few(measured: Measured) -> Measured:
-    """Waves, chirp, and eight of the sines."""
-    data = measured.dataset
-    records = tuple(r for r in data.records if r.frequency is None or r.source in FEW_SINES)
-    return replace(measured, dataset=replace(data, records=records))
+def examine(case: Case, measured: Measured, *, few: bool = False) -> Answer:
+    """The answer to one case, in this process and with one thread.
 
-
-def examine(case: Case, measured: Measured) -> Answer:
-    """The answer to one case, in this process and with one thread."""
+    Args:
+        few: whether only a few of the sines are given.
+    """
+    records = [r for r in measured.dataset.records if r.source != UNSEEN]
+    given = tuple(r for r in records if not few or r.frequency is None or r.source in FEW_SINES)
     wall, cpu = time.monotonic(), time.process_time()
-    found = diagnose(PUMP.session(measured.dataset, case.left_out, workers=1))
+    found = diagnose(PUMP.session(replace(measured.dataset, records=given), case.left_out, workers=1))
     wall, cpu = time.monotonic() - wall, time.process_time() - cpu
     return Answer(
         case.name,
         case.kind,
-        tuple(name for name, _ in case.effects),
+        tuple(name.partition("~")[0] for name, _ in case.effects),
         case.nuisances,
         **_said(found),
-        held_out={step.step: _held_out(step, measured) for step in found.history},
+        errors={step.name: _error(step, measured) for step in steps_of(PUMP.whole(found), PUMP)},
         detectability=_detectability(found.history[1], measured),
         wall=round(wall, 1),
         cpu=round(cpu, 1),
@@ -137,27 +143,35 @@ def _said(found: Diagnosis) -> dict[str, Any]:
     }
 
 
-def _held_out(step: ErrorStep, measured: Measured) -> float:
-    """Root mean square of measured minus simulated over the stated noise."""
-    noise = {signal.name: signal.deviation for signal in measured.dataset.signals if signal.role == "output"}
-    rows = [
-        (record.measured.values - record.simulated.values) / [noise[name] for name in record.measured.names]
-        for record in step.records
-        if record.use == "validate"
-    ]
-    return round(float(np.sqrt(np.mean(np.concatenate([row.ravel() for row in rows]) ** 2))), 4)
+def _error(step: Step, measured: Measured) -> float | None:
+    """Of one step's model on the wave that was not given."""
+    data, clean = measured.dataset, measured.clean[UNSEEN]
+    (wave,) = (r for r in data.records if r.source == UNSEEN)
+    assert isinstance(wave.data, Record)
+    names = wave.data.names
+    values = wave.data.values.copy()
+    for name, column in zip(_COLUMNS, clean.T, strict=True):
+        if name in names:
+            values[:, names.index(name)] = column
+    unseen = replace(data, records=(replace(wave, use="test", data=replace(wave.data, values=values)),))
+    try:
+        sizes = held_out_rms(step.model, unseen, step.values, sensors=step.sensors)
+    except BadInput:
+        return None
+    own = [(size / measured.deviation[name]) ** 2 for name, size in sizes.items()]
+    return round(math.sqrt(sum(own) / len(own)), 4)
 
 
 def _detectability(base: ErrorStep, measured: Measured) -> float:
     """Sum of squares over the noise, of all samples that were fitted: of stepped sines, once they have settled."""
-    noise, total = {signal.name: signal.deviation for signal in measured.dataset.signals}, 0.0
+    total = 0.0
     times = {log.source: log.data.time for log in measured.dataset.records if isinstance(log.data, Record)}
     for record in base.records:
         if record.use == "fit":
             fitted = np.isin(times[record.source], record.measured.time)
             clean = dict(zip(_COLUMNS, measured.clean[record.source][fitted].T, strict=True))
             for name, simulated in zip(record.simulated.names, record.simulated.values.T, strict=True):
-                total += float(np.sum(((simulated - clean[name]) / noise[name]) ** 2))
+                total += float(np.sum(((simulated - clean[name]) / measured.deviation[name]) ** 2))
     return float(f"{total:.4g}")
 
 

@@ -4,21 +4,24 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Callable, Iterator, Sequence
+from itertools import pairwise
 
 import numpy as np
 
 from validation.blind.benchmark.answer import Answer
 from validation.shares import Share
 
-KINDS = ("none", "named", "beyond", "left-out", "pair")
+KINDS = ("none", "named", "shaped", "beyond", "left-out", "pair")
 DETECTABLE = 100.0
 """Detectability from which an effect ought to be named."""
 _NOISE_ONLY = 1.05  # residual over noise
+_RISE = 1.01  # times the residual of the step before
+_SENSORS = {"offset": "sensor.offset", "gain": "sensor.gain", "shift": "sensor.delay", "drift": "sensor.drift"}
 
 
 def figures(answers: Sequence[Answer]) -> Iterator[Share]:
     """How often names, their order and their absence are right."""
-    named, none, pairs = (_of_kind(answers, kind) for kind in ("named", "none", "pair"))
+    named, none, shaped, pairs = (_of_kind(answers, kind) for kind in ("named", "none", "shaped", "pair"))
     outside = _of_kind(answers, "beyond") + _of_kind(answers, "left-out")
     large, small = [a for a in named if detectable(a)], [a for a in named if not detectable(a)]
     yield _share("right effect named first, detectability 100 or more", large, right_first, (95, 100))
@@ -27,13 +30,18 @@ def figures(answers: Sequence[Answer]) -> Iterator[Share]:
     yield _share("an effect added beside the right one", named, lambda a: right_first(a) and len(a.named) > 1)
     yield _share("right effect named first, detectability below 100", small, right_first)
     yield _share("a wrong effect named, detectability below 100", small, _wrong)
+    yield _share("right effect named first though its law has another shape", shaped, right_first, (80, 100))
+    yield _share("a law of another shape said to be complete", shaped, lambda a: a.complete and not a.learned)
     yield _share("two effects at once, both named", pairs, lambda a: set(a.truth) <= set(a.named), (85, 100))
     yield _share("an effect outside the catalogue answered with unknown", outside, lambda a: a.refuses, (90, 100))
     yield _share("a name given to an effect outside the catalogue", outside, lambda a: bool(a.named), (0, 5))
+    yield _share("a law learned for an effect outside the catalogue", outside, lambda a: bool(a.learned))
     yield _share("a physical effect named although none is missing", none, lambda a: bool(a.named), (0, 1))
     yield _share("said to be incomplete although nothing is missing", none, lambda a: not a.complete, (0, 5))
+    yield _share("a sensor's error named that is not there", answers, _false_sensor, (0, 5))
     repaired = [a for a in answers if a.named]
-    yield _share("held-out residual at most 1.05 of the noise once effects are named", repaired, _noise_only, (95, 100))
+    yield _share("residual on unseen logs at most 1.05 of the noise once named", repaired, _noise_only, (95, 100))
+    yield _share("a step that raised the residual on unseen logs", answers, _rises, (0, 0))
     yield _share("cases without an answer", answers, lambda a: bool(a.trouble), (0, 0))
 
 
@@ -73,8 +81,17 @@ def _wrong(answer: Answer) -> bool:
     return bool(answer.named) and not right_first(answer) and not tied(answer)
 
 
+def _false_sensor(answer: Answer) -> bool:
+    there = {_SENSORS[kind] for kind in answer.nuisances if kind in _SENSORS}
+    return not there.issuperset(answer.sensors)
+
+
 def _noise_only(answer: Answer) -> bool:
-    return bool(answer.held_out) and list((answer.held_out or {}).values())[-1] <= _NOISE_ONLY
+    return bool(answer.residuals) and answer.residuals[-1] <= _NOISE_ONLY
+
+
+def _rises(answer: Answer) -> bool:
+    return any(after > _RISE * before for before, after in pairwise(answer.residuals))
 
 
 def page(answers: Sequence[Answer], title: str) -> Iterator[str]:

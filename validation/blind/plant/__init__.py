@@ -4,7 +4,7 @@ from validation.blind.plant.case import Case, Measured, measure, write_case
 from validation.blind.plant.effects import BEYOND, STANDARD
 from validation.blind.plant.equations import COLUMNS, run
 from validation.blind.plant.nuisance import Nuisance
-from validation.blind.plant.programme import FEW_SINES, Test, programme
+from validation.blind.plant.programme import FEW_SINES, UNSEEN, Test, programme
 from validation.blind.plant.quantities import BOUNDS, Parameters, Strengths
 from validation.blind.plant.table import cases
 
@@ -14,6 +14,7 @@ __all__ = [
     "COLUMNS",
     "FEW_SINES",
     "STANDARD",
+    "UNSEEN",
     "Case",
     "Measured",
     "Nuisance",

@@ -6,7 +6,7 @@ import json
 import math
 import zlib
 from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +25,7 @@ Array = NDArray[np.float64]
 
 ANGLE_STEP, SPOOL_STEP = 240.0 / 4096, 2.4 / 4096  # percent and 1: 12 bits over +-120 percent and +-1.2
 _SPOOL_NOISE = 0.02  # of the spool's reading, over the angle's noise in percent
-_SPREAD = 0.1  # of the parameters around the thesis' values
+_SPREAD = 0.3  # of the parameters around the thesis' values
 _PERCENT = math.radians(15.0) / 100
 _SAMPLE = round(1 / RATE / STEP)  # steps
 _UNITS = {"alphaCMD": "%", "alphaPercent": "%", "u": "1"}
@@ -37,7 +37,7 @@ class Case:
 
     Args:
         name: of the data set's folder; unique in a table.
-        kind: "none" | "named" | "beyond" | "left-out" | "pair".
+        kind: "none" | "named" | "shaped" | "beyond" | "left-out" | "pair".
         effects: (name, size) of each effect in force.
         nuisances: kinds of nuisance in force.
         noise: standard deviation of the angle's white noise, percent.
@@ -60,10 +60,10 @@ class Case:
         """The right answer: names in any order, ("none",) or ("unknown",)."""
         if self.kind in ("beyond", "left-out"):
             return ("unknown",)
-        return tuple(name for name, _ in self.effects) or ("none",)
+        return tuple(name.partition("~")[0] for name, _ in self.effects) or ("none",)
 
     def parameters(self) -> Parameters:
-        """Each identified one within 10 percent of the thesis' value and within its bounds."""
+        """Each identified one within 30 percent of the thesis' value and within its bounds."""
         rng = self._stream("parameters")
         drawn = {}
         for name, (low, high) in BOUNDS.items():
@@ -95,27 +95,33 @@ class Measured:
         dataset: noisy logs.
         clean: file -> angle (percent) and spool (1), (n, 2): the same readings without noise and resolution.
         states: file -> logged values (n, 8) of the plant as `COLUMNS` of the equations says, at the logs' instants.
+        deviation: of the noise in each output, resolution included.
         truth: for JSON.
     """
 
     dataset: Dataset
     clean: Mapping[str, Array]
     states: Mapping[str, Array] = field(repr=False)
+    deviation: Mapping[str, float]
     truth: Mapping[str, Any]
 
 
 def measure(case: Case) -> Measured:
     """Carry out the case's session: every test, one after the other."""
     clean, states, records = {}, {}, []
-    for test, command, logged in _session(case):
+    nuisance = case.nuisance()
+    for test, command, logged, begin in _session(case):
         readings = np.column_stack([logged[:, 0] / _PERCENT, logged[:, 1]])
-        readings[:, 0] = case.nuisance().gain * readings[:, 0] + case.nuisance().offset
+        hours = (begin + np.arange(len(logged)) / RATE) / 3600
+        readings[:, 0] = nuisance.gain * readings[:, 0] + nuisance.offset + nuisance.drift * hours
         clean[test.file], states[test.file] = readings, logged
-        records.append(_record(case, test, command, readings))
-    signals = _signals(case)
+        records.append(replace(_record(case, test, command, readings), begin=begin))
+    noise = deviation_told(case.noise, nuisance)
+    deviation = {one.name: one.deviation for one in _signals(case, noise) if one.role == "output"}
+    signals = _signals(case, nuisance.stated * noise or None)
     about = "swash plate tests without load: stepped sine, chirp, stochastic wave"
     dataset = Dataset(case.name, about, "pump", signals, tuple(records))
-    return Measured(dataset, clean, states, _truth(case))
+    return Measured(dataset, clean, states, deviation, _truth(case))
 
 
 def write_case(case: Case, folder: Path, truth_folder: Path) -> Path:
@@ -136,8 +142,8 @@ def write_case(case: Case, folder: Path, truth_folder: Path) -> Path:
     return path
 
 
-def _session(case: Case) -> Iterator[tuple[Test, Array, Array]]:
-    """Test by test: what was logged of the command (percent) and of the plant."""
+def _session(case: Case) -> Iterator[tuple[Test, Array, Array, float]]:
+    """Test by test: what was logged of the command (percent) and of the plant, and when that began, s."""
     nuisance, parameters, strengths = case.nuisance(), case.parameters(), case.strengths()
     tests = programme()
     commands = [test.command(case.seed, hold=nuisance.hold, before=nuisance.before) for test in tests]
@@ -159,7 +165,7 @@ def _session(case: Case) -> Iterator[tuple[Test, Array, Array]]:
             parameters=parameters, strengths=strengths, clock=clock, session=session,
         )  # fmt: skip
         knots = (first + np.arange(n) * _SAMPLE) // command.every
-        yield test, command.level[knots], logged[:n]
+        yield test, command.level[knots], logged[:n], clock + command.start
         clock += command.start + test.length
 
 
@@ -173,18 +179,19 @@ def _record(case: Case, test: Test, command: Array, readings: Array) -> Measured
     if case.spool and test.kind == "stochastic":
         columns["u"] = np.round(spool / SPOOL_STEP) * SPOOL_STEP
     lead = round((1.0 + nuisance.hold) * RATE) / RATE
-    time = lead + np.arange(n) / RATE
+    time = lead + np.arange(n) / RATE + nuisance.jitter * rng.uniform(-1, 1, n)
     units = tuple(_UNITS[name] for name in columns)
     data = Record(time, np.column_stack(list(columns.values())), tuple(columns), units, origin="measured")
     return MeasuredRecord(test.file, test.kind, test.use, data, test.offset, test.amplitude, test.frequency)
 
 
-def _signals(case: Case) -> tuple[MeasuredSignal, ...]:
-    angle = deviation_told(case.noise, case.nuisance())
+def _signals(case: Case, angle: float | None) -> tuple[MeasuredSignal, ...]:
+    """The columns of its logs, with the angle's noise that is stated, percent."""
+    spool = None if angle is None else angle * _SPOOL_NOISE
     signals = (
         MeasuredSignal("alphaCMD", "input", "%", "swash plate angle command", "alphaCMD"),
         MeasuredSignal("alphaPercent", "output", "%", "swash plate angle", "alphaPercent", angle, ANGLE_STEP),
-        MeasuredSignal("u", "output", "1", "spool position", "u", angle * _SPOOL_NOISE, SPOOL_STEP),
+        MeasuredSignal("u", "output", "1", "spool position", "u", spool, SPOOL_STEP),
     )
     return signals if case.spool else signals[:2]
 

@@ -24,6 +24,8 @@ _RING = 8192  # steps, 0.16 s: longer than any dead time
 _REST_PRESSURE = 0.5  # of the supply pressure, in both chambers
 _TURN = 1e-3  # m/s, width of the change of sign of dry friction
 _PRELOAD_WIDTH = 0.2e-3  # m
+_WIDE_TURN, _WIDE = 10e-3, 1e-3  # m/s and m, of friction and of a preload that are shaped differently
+_STOP_STIFFNESS = 4.0  # of a soft stop, over the spool's own spring
 _SPOOL_TURN = 0.05  # 1/s
 _ATMOSPHERE = 1.013e5  # Pa
 _POLYTROPIC = 1.4
@@ -45,10 +47,18 @@ def root(dp: float, rho: float) -> float:
 
 
 @inline
+def blunted(w: float, width: float) -> float:
+    """A dead zone without corners: flat at 0, and further out late by its width."""
+    return math.copysign(math.sqrt(w * w + width * width) - width, w)
+
+
+@inline
 def _opening(u: float, p: Any, s: Any) -> tuple[float, float]:
     """What the edges see of the spool, and their area, thesis Eq. 3.3."""
     w = u + s.offset__u_n
     w = math.copysign(max(abs(w) - s.deadband__u_0, 0.0), w)
+    if s.rounded__u_0 != 0.0:
+        w = blunted(w, s.rounded__u_0)
     o = min(abs(w), 1.0)
     area = p.k1 * o * o * o + p.k2 * o * o + p.k3 * o
     if w > 0.0:
@@ -59,9 +69,11 @@ def _opening(u: float, p: Any, s: Any) -> tuple[float, float]:
 @inline
 def stiffness(pressure: float, p: Any, s: Any) -> float:
     """Of oil with air in it, Pa."""
-    if s.air__eps == 0.0:
+    if s.air__eps == 0.0 and s.isothermal__eps == 0.0:
         return p.beta
     absolute = max(pressure + _ATMOSPHERE, _VACUUM)
+    if s.isothermal__eps != 0.0:
+        return 1.0 / (1.0 / p.beta + s.isothermal__eps * _ATMOSPHERE / (absolute * absolute))
     air = s.air__eps * (_ATMOSPHERE / absolute) ** (1.0 / _POLYTROPIC) / (_POLYTROPIC * absolute)
     return 1.0 / (1.0 / p.beta + air)
 
@@ -78,6 +90,11 @@ def _force(x: float, v: float, t: float, s: Any) -> float:
     f -= s.hardening__k_3 * x * x * x
     if s.preload__F_0 != 0.0:
         f -= s.preload__F_0 * math.tanh(x / _PRELOAD_WIDTH)
+    f -= s.progressive__k * x * abs(x)
+    if s.arctan__F != 0.0:
+        f -= s.arctan__F * 2.0 / math.pi * math.atan(v / _WIDE_TURN)
+    if s.wide__F != 0.0:
+        f -= s.wide__F * x / math.sqrt(x * x + _WIDE * _WIDE)
     f -= s.quadratic__b_2 * v * abs(v)
     f -= s.one_sided__k_a * max(x, 0.0)
     if s.shaft__F != 0.0:
@@ -100,7 +117,7 @@ def flow(
     Laws from elsewhere may shift the valve's opening, and let the supply pressure fall, Pa.
     """
     u, u_t, x, v, p1, p2, drop, felt, swing, swing_t = state
-    supply = p.p_P - fall - (drop if s.droop__R != 0.0 else 0.0)
+    supply = p.p_P - fall - drop
     if s.ripple__p != 0.0:
         supply += s.ripple__p * math.sin(2.0 * math.pi * s.ripple__f * t)
     w, area = _opening(u + shift, p, s)
@@ -115,19 +132,26 @@ def flow(
     leak = p.K_L * root(p1 - p2, p.rho) + s.laminar__C_l * (p1 - p2)
     if s.worn__C_w != 0.0:
         leak += s.worn__C_w * math.exp(-((x / s.worn__x_w) ** 2)) * (p1 - p2)
-    p1_t = stiffness(p1, p, s) / (p.V_0 + p.A_p * x) * (q1 - p.A_p * v - leak - s.external__C_e * (p1 - p.p_T))
-    p2_t = stiffness(p2, p, s) / (p.V_0 - p.A_p * x) * (leak + p.A_p * v - q2 - s.external__C_e * (p2 - p.p_T))
+    out1 = s.external__C_e * (p1 - p.p_T) + s.orifice__K * root(p1 - p.p_T, p.rho)
+    out2 = s.external__C_e * (p2 - p.p_T) + s.orifice__K * root(p2 - p.p_T, p.rho)
+    p1_t = stiffness(p1, p, s) / (p.V_0 + p.A_p * x) * (q1 - p.A_p * v - leak - out1)
+    p2_t = stiffness(p2, p, s) / (p.V_0 - p.A_p * x) * (leak + p.A_p * v - q2 - out2)
     v_t = ((p1 - p2) * p.A_p - p.k * x - p.b * v + _force(x, v, t, s)) / p.m_eff
     u_tt = p.omega_v * (p.omega_v * (command - u) - 2.0 * p.zeta_v * u_t)
     if s.spool_friction__a_c != 0.0:
         u_tt -= s.spool_friction__a_c * math.tanh(u_t / _SPOOL_TURN)
-    drop_t = (s.droop__R * taken - drop) / s.droop__T if s.droop__R != 0.0 else 0.0
+    over = abs(u) - s.soft__u
+    if over > 0.0:
+        u_tt -= _STOP_STIFFNESS * p.omega_v**2 * math.copysign(over, u)
+    drop_t = (s.droop__R * taken + s.square__R * taken * abs(taken) - drop) / s.droop__T
     angle = math.atan(2.0 * math.tan(p.alpha_max) / p.L * play(behind, x, s.backlash__d))
     felt_t = (angle - felt) / s.lag__T_f if s.lag__T_f != 0.0 else 0.0
     pull = 0.0
     if s.resonance__f != 0.0:
         eigen = 2.0 * math.pi * s.resonance__f
         pull = eigen * (eigen * (angle - swing) - 2.0 * s.resonance__zeta * swing_t)
+    elif s.twofold__T != 0.0:
+        pull = ((angle - swing) / s.twofold__T - 2.0 * swing_t) / s.twofold__T
     return u_t, u_tt, v, v_t, p1_t, p2_t, drop_t, felt_t, swing_t, pull
 
 
@@ -183,7 +207,7 @@ def _seen(state: Any, speed: float, behind: float, p: Any, s: Any) -> tuple[floa
     angle = math.atan(scale * behind)
     if s.lag__T_f != 0.0:
         return felt, (angle - felt) / s.lag__T_f
-    if s.resonance__f != 0.0:
+    if s.resonance__f != 0.0 or s.twofold__T != 0.0:
         return swing, swing_t
     return angle, scale * speed / (1.0 + (scale * behind) ** 2)
 
@@ -214,6 +238,9 @@ def _wanted(
     if s.deadzone__e_0 != 0.0:
         e_t = e_t if abs(e) > s.deadzone__e_0 else 0.0
         e = math.copysign(max(abs(e) - s.deadzone__e_0, 0.0), e)
+    if s.blunt__e_0 != 0.0:
+        e_t *= abs(e) / math.sqrt(e * e + s.blunt__e_0**2)
+        e = blunted(e, s.blunt__e_0)
     return p.K_D * ((gain * e - u) + p.T_d * (gain * e_t - u_t))
 
 

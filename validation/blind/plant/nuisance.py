@@ -11,7 +11,10 @@ from scipy.signal import lfilter
 
 Array = NDArray[np.float64]
 
-KINDS = ("coloured", "start", "offset", "gain", "shift")
+SENSORS = ("offset", "gain", "shift", "drift")
+"""Errors of the logged angle that a diagnosis may name."""
+KINDS = ("coloured", "start", *SENSORS, "jitter", "understated", "overstated", "unstated")
+_STATED = {"understated": 0.3, "overstated": 3.0, "unstated": 0.0}
 
 
 @dataclass(frozen=True)
@@ -26,6 +29,9 @@ class Nuisance:
         offset: percent, added to the logged angle (not to the one that is fed back).
         gain: of the logged angle, over 1.
         shift: s by which outputs are logged later than the command beside them.
+        drift: percent an hour, by which the logged angle goes off.
+        jitter: s, by which a time stamp is off at most.
+        stated: noise that the data set states over what there is; 0 where it states none.
     """
 
     coloured: float = 0.0
@@ -35,6 +41,9 @@ class Nuisance:
     offset: float = 0.0
     gain: float = 1.0
     shift: float = 0.0
+    drift: float = 0.0
+    jitter: float = 0.0
+    stated: float = 1.0
 
 
 def draw_nuisance(kinds: tuple[str, ...], rng: np.random.Generator) -> Nuisance:
@@ -42,8 +51,8 @@ def draw_nuisance(kinds: tuple[str, ...], rng: np.random.Generator) -> Nuisance:
     unknown = set(kinds) - set(KINDS)
     if unknown:
         raise ValueError(f"no nuisance called {', '.join(sorted(unknown))}; there are {', '.join(KINDS)}")
-    sign = rng.choice((-1.0, 1.0), size=3)
-    ratio, memory, hold, before, offset, gain, shift = rng.uniform(size=7)
+    sign = rng.choice((-1.0, 1.0), size=4)
+    ratio, memory, hold, before, offset, gain, shift, drift, jitter = rng.uniform(size=9)
     chosen: dict[str, float] = {}
     if "coloured" in kinds:
         chosen |= {"coloured": 0.3 + 1.2 * ratio, "memory": 0.01 * 10**memory}
@@ -55,7 +64,12 @@ def draw_nuisance(kinds: tuple[str, ...], rng: np.random.Generator) -> Nuisance:
         chosen |= {"gain": 1 + float(sign[2]) * 0.002 * 10**gain}
     if "shift" in kinds:
         chosen |= {"shift": round(0.2 * 10**shift, 1) * 1e-3}
-    return Nuisance(**chosen)
+    if "drift" in kinds:
+        chosen |= {"drift": float(sign[3]) * 1.0 * 10**drift}
+    if "jitter" in kinds:
+        chosen |= {"jitter": 0.1e-3 * 10 ** (0.6 * jitter)}
+    stated = [size for kind, size in _STATED.items() if kind in kinds] or [1.0]
+    return Nuisance(**chosen, stated=stated[0])
 
 
 def noise(n: int, deviation: float, nuisance: Nuisance, interval: float, rng: np.random.Generator) -> Array:
@@ -71,5 +85,5 @@ def noise(n: int, deviation: float, nuisance: Nuisance, interval: float, rng: np
 
 
 def deviation_told(deviation: float, nuisance: Nuisance) -> float:
-    """What a data sheet would state: of all noise together."""
+    """Of all noise together, which a good data sheet would state."""
     return deviation * math.hypot(1.0, nuisance.coloured)

@@ -56,7 +56,8 @@ BOUNDS = {
 class Strengths(NamedTuple):
     """Of all effects at once, SI units; zero is off, infinity where a limit is off.
 
-    Behind the two underscores stands the symbol of the effect's list (`effects.STANDARD`, `effects.BEYOND`).
+    Behind the two underscores stands the symbol of the effect's list (`effects.STANDARD`, `effects.BEYOND`,
+    `effects.SHAPED`).
     """
 
     # control piston and swash plate
@@ -100,3 +101,14 @@ class Strengths(NamedTuple):
     resonance__zeta: float = 0.1
     warming__share: float = 0.0
     fading__share: float = 0.0
+    # as those of the list, shaped differently
+    arctan__F: float = 0.0
+    wide__F: float = 0.0
+    progressive__k: float = 0.0
+    rounded__u_0: float = 0.0
+    soft__u: float = math.inf
+    isothermal__eps: float = 0.0
+    square__R: float = 0.0
+    orifice__K: float = 0.0
+    twofold__T: float = 0.0
+    blunt__e_0: float = 0.0

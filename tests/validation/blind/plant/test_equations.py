@@ -93,6 +93,9 @@ def test_rest_obeys_flow_and_force_balance() -> None:
         (Strengths(preload__F_0=90.0), lambda x: -90.0 * math.tanh(x / 0.2e-3)),
         (Strengths(one_sided__k_a=5e3), lambda x: -5e3 * max(x, 0.0)),
         (Strengths(coulomb__F_c=80.0), lambda x: 0.0),
+        (Strengths(arctan__F=80.0), lambda x: 0.0),
+        (Strengths(progressive__k=5e5), lambda x: -5e5 * x * abs(x)),
+        (Strengths(wide__F=90.0), lambda x: -90.0 * x / math.hypot(x, 1e-3)),
     ],
 )
 @pytest.mark.parametrize("percent", [50.0, -30.0])
@@ -110,6 +113,7 @@ def test_forces_in_motion(v: float) -> None:
     assert force(coulomb__F_c=80.0) == pytest.approx(-80 * turn)
     stribeck = force(stribeck__F_c=60.0, stribeck__F_s=100.0, stribeck__v_s=5e-3)
     assert stribeck == pytest.approx(-turn * (60 + 40 * math.exp(-abs(v) / 5e-3)))
+    assert force(arctan__F=80.0) == pytest.approx(-80 * math.atan2(v, 10e-3) * 2 / math.pi)
     assert force(quadratic__b_2=3e4) == pytest.approx(-3e4 * v * abs(v))
     assert force(shaft__F=150.0, shaft__f=2.0, shaft__phase=0.3) == pytest.approx(150 * math.sin(math.pi + 0.3))
 
@@ -120,6 +124,11 @@ def test_offset_acts_on_the_edges_before_the_dead_band() -> None:
         w, k = opening(u, BASE, Strengths(offset__u_n=0.012, deadband__u_0=0.016))
         shifted = u + 0.012
         assert w == pytest.approx(math.copysign(max(abs(shifted) - 0.016, 0.0), shifted))
+        assert k == pytest.approx(area(w))
+    for u in (-0.3, 0.01, 0.2):
+        w, k = opening(u, BASE, Strengths(rounded__u_0=0.02))
+        assert (abs(w) + 0.02) ** 2 - 0.02**2 == pytest.approx(u**2)
+        assert w * u > 0
         assert k == pytest.approx(area(w))
     assert opening(0.3, BASE, Strengths(uneven__share=0.2))[1] == pytest.approx(1.2 * area(0.3))
     assert opening(-0.3, BASE, Strengths(uneven__share=0.2))[1] == pytest.approx(area(0.3))
@@ -138,6 +147,8 @@ def test_air_softens_oil_as_its_volume_says() -> None:
 
     softness = -(volume(p + 1.013e5 + h) - volume(p + 1.013e5 - h)) / (2 * h)
     assert equations.stiffness.py_func(p, BASE, Strengths(air__eps=0.02)) == pytest.approx(1 / softness, rel=1e-6)
+    slow = 1 / BASE.beta + 0.02 * 1.013e5 / (p + 1.013e5) ** 2  # at constant temperature the volume goes with 1/p
+    assert equations.stiffness.py_func(p, BASE, Strengths(isothermal__eps=0.02)) == pytest.approx(1 / slow)
 
 
 @pytest.mark.parametrize("name", ["laminar__C_l", "external__C_e"])
@@ -147,6 +158,19 @@ def test_leakage_is_what_the_valve_delivers_at_rest(name: str) -> None:
     across, out_1, out_2 = (1e-12 * (at["p1"] - at["p2"]), 0, 0) if name[0] == "l" else (0, at["p1"], -at["p2"])
     assert area(at["u"]) * jet(BASE.p_P - at["p1"]) == pytest.approx(leak + across + 1e-12 * out_1, rel=1e-3)
     assert area(at["u"]) * jet(at["p2"]) == pytest.approx(leak + across + 1e-12 * out_2, rel=1e-3)
+
+
+def test_an_orifice_to_the_tank_is_what_the_valve_delivers_at_rest() -> None:
+    at = held(50.0, Strengths(orifice__K=2e-9))
+    leak = BASE.K_L * jet(at["p1"] - at["p2"])
+    assert area(at["u"]) * jet(BASE.p_P - at["p1"]) == pytest.approx(leak + 2e-9 * jet(at["p1"]), rel=1e-3)
+    assert area(at["u"]) * jet(at["p2"]) == pytest.approx(leak - 2e-9 * jet(at["p2"]), rel=1e-3)
+
+
+def test_a_supply_may_droop_with_the_square_of_its_flow() -> None:
+    at = held(50.0, Strengths(square__R=1e16, laminar__C_l=1e-11))
+    flow = area(at["u"]) * jet(at["p_P"] - at["p1"])
+    assert at["p_P"] == pytest.approx(BASE.p_P - 1e16 * flow**2, rel=1e-5)
 
 
 def test_supply_droops_by_resistance_times_flow() -> None:
@@ -163,6 +187,7 @@ def test_a_lag_and_a_resonance_stand_between_plate_and_log(f: float) -> None:
     w = 2 * math.pi * f
     for strengths, expected in (
         (Strengths(lag__T_f=2e-3), 1 / (1 + 2e-3j * w)),
+        (Strengths(twofold__T=2e-3), 1 / (1 + 2e-3j * w) ** 2),
         (Strengths(resonance__f=60.0, resonance__zeta=0.2), 1 / (1 - (f / 60) ** 2 + 0.4j * f / 60)),
     ):
         found = swung(f, strengths, BASE)
@@ -180,6 +205,9 @@ def test_sampling_delays_by_half_its_interval_and_one_step_is_off() -> None:
 def test_error_deadzone_leaves_a_standing_error() -> None:
     plain, dull = held(50.0), held(50.0, Strengths(deadzone__e_0=1e-3))
     assert dull["alpha"] == pytest.approx(plain["alpha"] - 1e-3, rel=1e-4)
+    blunt, left = held(50.0, Strengths(blunt__e_0=1e-3)), math.radians(7.5) - plain["alpha"]
+    wanted = math.sqrt((left + 1e-3) ** 2 - 1e-3**2)  # whose blunted error is the plain one's
+    assert math.radians(7.5) - blunt["alpha"] == pytest.approx(wanted, rel=2e-3)
 
 
 @pytest.mark.parametrize("share", [0.5, 1.0])
@@ -206,6 +234,8 @@ def test_spool_limits_hold_and_do_not_wind_up() -> None:
     assert np.abs(slow).max() == pytest.approx(speed / 3, rel=1e-6)
     leaving = np.flatnonzero((np.abs(stopped[:-1]) == 0.1) & (np.abs(stopped[1:]) < 0.1))
     assert leaving.size > 5
+    soft = np.abs(_wave(Strengths(soft__u=0.1))[:, 1]).max()
+    assert 0.1 < soft < 0.1 + (np.abs(free[:, 1]).max() - 0.1) / 3
     state = (0.1, 5.0, 0.0, 0.0, 1e6, 1e6, 0.0, 0.0, 0.0, 0.0)
     assert equations._held_back.py_func(state, BASE, Strengths(saturation__u_max=0.1))[1] == 0.0
 
