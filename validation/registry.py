@@ -237,8 +237,6 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "figure-4-6": Case(
             _THESIS + "figure_4_6.case", "models over time; Figure 4.7, Table 4.9", "thesis", quick=True
         ),
-        "figure-4-9": Case(_THESIS + "figure_4_9.case", "ripple before and after a hose", "thesis"),
-        "figure-4-11": Case(_THESIS + "figure_4_11.case", "relief valve shaken by the ripple", "thesis", quick=True),
         "figure-5-15": Case(_THESIS + "figure_5_15.case", "heave of a vessel; Figure 5.16", "thesis", quick=True),
         "figure-6-1": Case(_THESIS + "figure_6_1.case", "both loops; Figure 6.2, Table 6.1", "thesis", quick=True),
         "figure-6-3": Case(_THESIS + "figure_6_3.case", "friction of both motors; Table 6.2", "thesis", quick=True),

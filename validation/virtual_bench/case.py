@@ -91,7 +91,9 @@ def _round_trip(plan: Plan, data: BenchData) -> Finding:
         if isinstance(new.data, Record) and isinstance(old.data, Record)
         for name in new.data.names
     )
-    return Finding("written and read again: largest difference in halves of the last digit", worst, 1 + 1e-6, "")
+    return Finding(
+        "written and read again: largest difference in halves of the last digit", worst, 1 + 1e-6, "", regression=True
+    )
 
 
 def _rms(values: NDArray[np.float64]) -> float:
