@@ -246,6 +246,9 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "table-4-4": Case(_THESIS + "table_4_4.case", "black boxes of a known plant", "thesis", quick=True),
         "table-5-1": Case(_THESIS + "table_5_1.case", "parameters of the linear models", "thesis", quick=True),
         "readers": Case("validation.readers.case", "10,000 spoiled inputs for each reader of files"),
+        "mutations": Case(
+            "validation.mutations.case", "40 faults planted in formulas of the thesis: a test notices each", "thesis"
+        ),
         "kills": Case("validation.kills.case", "37 kills of a build, a fit and a diagnosis: the same results"),
         "importers": Case("validation.importers.case", "what importers and the checker make of our FMUs", "fmus"),
     }
