@@ -48,7 +48,7 @@ def _mechanical_stop() -> Iterator[Finding]:
         exact = 100 * np.rad2deg(np.arctan(stroke * np.tan(np.deg2rad(15)))) / 15
         end, touch = flow_test.end_of_rise(record), flow_test.contact(record)
         yield Finding(
-            f"stop at {stroke:g} of the stroke: the rise ends at {end:.1f} %, the stop pushes from {touch:.1f} %; apart",
+            f"stop at {stroke:g} of the stroke: rise ends at {end:.1f} %, the stop pushes from {touch:.1f} %; apart",
             abs(end - touch),
             0.2,
             "% of the command",
