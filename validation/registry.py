@@ -120,7 +120,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         ),
         "known-answers": Case("validation.known_answers.case", "pump and test bench, answers known", "diagnosis"),
         "tuning": Case(
-            "validation.tuning.case", "gains of thesis Table 6.1 back from their margins", "circuits", quick=True
+            "validation.tuning.case", "which gains of Table 6.1 follow from plants and margins", "circuits", quick=True
         ),
         "libcosim": Case(
             "validation.libcosim.case",
