@@ -212,6 +212,12 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "real-measurements": Case(
             "validation.real_measurements.case", "why the locked model cannot fit; the load", "diagnosis"
         ),
+        "plate-pull": Case(
+            "validation.plate_pull.case",
+            "the pistons' pull on the swash plate beside what load changed",
+            "thesis",
+            quick=True,
+        ),
         "real-machines": Case(
             "validation.real.case",
             "five measured machines: base models and right effects against independent least squares",
