@@ -255,6 +255,12 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "mutations": Case(
             "validation.mutations.case", "40 faults planted in formulas of the thesis: a test notices each", "thesis"
         ),
+        "mirror": Case(
+            "validation.mirror.case",
+            "the pump block against Appendix F, name by name and sign by sign",
+            "thesis",
+            quick=True,
+        ),
         "kills": Case("validation.kills.case", "37 kills of a build, a fit and a diagnosis: the same results"),
         "importers": Case("validation.importers.case", "what importers and the checker make of our FMUs", "fmus"),
     }

@@ -26,8 +26,8 @@ equation
   annotation(Documentation(info="<html>
 <p>Each chamber pushes the swash plate with its pressure: T = A &Sigma; p<sub>n</sub> dx<sub>n</sub>/d&alpha;, by the
 work that the oil does when the plate tilts. Over a revolution two parts are left. The chambers change their port
-&delta; behind the dead centre, so that the pressure difference pulls the plate back. The pistons' axes lie on a cone, so that
-the mean pressure pulls it out. The two nearly cancel in the A4VSG under the thesis' load.</p>
+&delta; behind the dead centre, so that the pressure difference pulls the plate back. The pistons' axes lie on a cone,
+so that the mean pressure pulls it out. The two nearly cancel in the A4VSG under the thesis' load.</p>
 <p><b>Source:</b> thesis Eq. 3.25, 3.29 and 3.37 to 3.44 for positions and ports, Section 3.4.4 for the numbers; the
 virtual work and its mean, to first order in &alpha;, are this library's. Eq. 3.11 takes the torque to the piston.</p>
 <p><b>Valid:</b> angles to 15 degrees; there within 7 percent of the mean over the whole kinematics.</p>
