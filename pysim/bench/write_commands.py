@@ -68,8 +68,8 @@ def write_commands(
             f"{sampling_hz:.9g},{times.size},{0.5 * (low + high):.9g},{scale:.9g},{units[0]}"
         )
     written.append(_write(folder / _COMMANDS / _INDEX, "\n".join(index) + "\n"))
-    units = {name: unit for name, (unit, _) in plan.units.items()}
-    return (*written, write_description(folder, _to_come(plan, logs), units))
+    files_in = {name: unit for name, (unit, _) in plan.units.items()}
+    return (*written, write_description(folder, _to_come(plan, logs), files_in))
 
 
 def _driven(plan: Plan, run: Run, times: Array) -> tuple[Names, Array, Names]:
