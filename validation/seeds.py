@@ -20,8 +20,10 @@ class Seeds:
         self._others: set[str] = set()
 
     def note(self, seed: Any) -> None:
-        """One more: a whole number, or whatever else NumPy takes."""
-        if isinstance(seed, int | np.integer):
+        """One more: a whole number, a row that begins with the seed and goes on with its purpose, or another thing."""
+        if isinstance(seed, list | tuple) and seed:
+            self.note(seed[0])
+        elif isinstance(seed, int | np.integer):
             self._numbers.add(int(seed))
         else:
             self._others.add(UNSEEDED if seed is None else str(seed))

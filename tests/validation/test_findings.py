@@ -72,7 +72,8 @@ def test_seeds_of_a_run_are_noted(monkeypatch: pytest.MonkeyPatch) -> None:
     with seeds_drawn() as seeds:
         np.random.default_rng()
         np.random.default_rng(np.random.default_rng(1))
-    assert seeds.text == "1, none"
+        np.random.default_rng([8, 1477216740])
+    assert seeds.text == "1, 8, none"
 
 
 def test_every_case_has_its_module_a_page_and_a_group() -> None:

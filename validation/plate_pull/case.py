@@ -11,8 +11,8 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import fmu_build
+from pysim.diagnosis import compare_responses
 from pysim.identify import magnitude_db
-from pysim.identify.greybox import Measurements, Parameter, fit_at, problem
 from pysim.io import read_model
 from pysim.present.style import COLOURS, DASHES, MARKERS, SMALL, TEXT, new_figure, quiet
 from pysim.simulate import Rodas, simulate
@@ -122,10 +122,8 @@ def answered(share: float) -> tuple[FrequencyResponse, ...]:
     """At 75 % and 5 and 10 %, with this share of the pull: 0 is the unloaded plate."""
     c, a_0 = load_law()
     overrides = {"c": c, "a_0": a_0, "pump.pistonForce.share": share}
-    task = problem(model(), [Measurements(unloaded_at_75(), overrides=overrides)], [Parameter("pump.k")])
-    start = dict(zip(task.space.keys, task.space.start.tolist(), strict=True))
-    found = [one.comparison.simulated for one in fit_at(task, start).responses]
-    return tuple(one for one in found if one is not None)
+    found = compare_responses(model(), unloaded_at_75(), overrides=overrides, solver=Rodas(rtol=1e-7, atol=1e-7))
+    return tuple(one.simulated for one in found.tests if one.simulated is not None)
 
 
 @cache
