@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from validation.findings import Finding
 from validation.ripple import hose, relief
-from validation.ripple.pictures import hose_picture, relief_picture
+from validation.ripple.pictures import cause_picture, hose_picture, relief_picture
 
 
 def run() -> Iterator[Finding]:
@@ -21,6 +21,7 @@ def pictures() -> Mapping[str, Figure]:
     """Both figures as in the thesis, with what decides beside them."""
     return {
         "Figure 4.9 redone: flow before and after the hose; right: the share that arrives.": hose_picture(),
+        "What could take the ripple away, as strong as it may be; orange: nothing to be seen.": cause_picture(),
         "Figure 4.11 redone: a relief valve with ripple and without; right: its swing.": relief_picture(),
     }
 
