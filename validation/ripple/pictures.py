@@ -73,7 +73,7 @@ def cause_picture() -> Figure:
     segments = [Hose().with_lag(0.0).passed_by_segments(n, hertz, flow) for n in (4, 2, 1)]
     rows = {f"{n} segment{'s' if n > 1 else ''}": share for n, share in zip((4, 2, 1), segments, strict=True)}
     rows |= {"70 MPa and a loss factor of 0.27": hose.damped().passed(hertz, flow)}
-    rows |= {words: line.passed(hertz, flow) for words, (line, _) in reversed(hose.causes().items())}
+    rows |= {words: line.passed(hertz, flow) for words, (line, _) in reversed(list(hose.causes().items()))}
     rows |= {"none": Hose().with_lag(0.0).passed(hertz, flow)}
     figure = new_figure(7.2, 3.2)
     axes = figure.subplots()
