@@ -9,7 +9,12 @@ from dataclasses import dataclass
 class Finding:
     """One claim. `value` and `limit` are in `unit`; a value that is not a number fails.
 
-    `skipped` says why the claim could not be tried on this machine; such a claim neither holds nor fails.
+    Args:
+        skipped: why the claim could not be tried on this machine; such a claim neither holds nor fails.
+        regression: our code is compared with itself, run another way or at another time. It may fail as a claim does,
+            and does not count as one.
+        alternative: what the value would be if the claim were wrong.
+        source: where the limit comes from. Both stand in the case's page where they are empty.
     """
 
     claim: str
@@ -17,6 +22,9 @@ class Finding:
     limit: float
     unit: str
     skipped: str = ""
+    regression: bool = False
+    alternative: str = ""
+    source: str = ""
 
     @property
     def holds(self) -> bool:
@@ -32,4 +40,4 @@ class Finding:
 
     def __str__(self) -> str:
         word = "skipped" if self.skipped else "holds  " if self.holds else "FAILS  "
-        return f"{word}  {self.outcome}"
+        return f"{word}  {'regression check: ' if self.regression else ''}{self.outcome}"

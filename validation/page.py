@@ -51,6 +51,9 @@ def _verdict(results: Sequence[CaseResult]) -> str:
     counts = {verdict: sum(result.count(verdict) for result in results) for verdict in (HOLDS, FAILS, SKIPPED)}
     stopped = sum(bool(result.error) for result in results)
     text = f"{counts[HOLDS]} claims hold, {counts[FAILS]} fail, {counts[SKIPPED]} could not be tried here."
+    checks = [finding for result in results for finding in result.checks]
+    if checks:
+        text += f" Of {len(checks)} regression checks {sum(finding.holds for finding in checks)} hold."
     return f"{text} {stopped} cases stopped early." if stopped else text
 
 
@@ -86,4 +89,8 @@ def _claim(finding: Finding) -> list[str]:
     said = finding.skipped or ""
     value = "" if finding.skipped else f"{finding.value:.4g}"
     claim = f"{finding.claim} ({said})" if said else finding.claim
+    claim = f"regression check: {claim}" if finding.regression else claim
+    beside = [f"if wrong: {finding.alternative}"] if finding.alternative else []
+    beside += [f"limit: {finding.source}"] if finding.source else []
+    claim = f"{claim} [{'; '.join(beside)}]" if beside else claim
     return [claim, value, f"{finding.limit:g}", finding.unit, cell(verdict, _KIND[verdict])]

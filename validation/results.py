@@ -50,6 +50,7 @@ class CaseResult:
     findings: tuple[Finding, ...]
     error: str = ""
     commit: str = ""
+    seeds: str = ""  # with which this process drew random numbers, such as "1, 3 to 402"; "" where it drew none
 
     @property
     def verdict(self) -> str:
@@ -60,8 +61,13 @@ class CaseResult:
         return HOLDS if tried else SKIPPED
 
     def count(self, verdict: str) -> int:
-        """How many claims came out that way."""
-        return sum(verdict_of(finding) == verdict for finding in self.findings)
+        """How many claims came out that way, without regression checks."""
+        return sum(verdict_of(finding) == verdict and not finding.regression for finding in self.findings)
+
+    @property
+    def checks(self) -> tuple[Finding, ...]:
+        """The regression checks that were tried."""
+        return tuple(finding for finding in self.findings if finding.regression and not finding.skipped)
 
 
 def verdict_of(finding: Finding) -> str:
@@ -91,13 +97,15 @@ def append_results(path: Path, results: Iterable[CaseResult]) -> None:
 
 
 def keep_results(path: Path, results: Iterable[CaseResult]) -> tuple[CaseResult, ...]:
-    """Put these runs in place of former ones of the same cases; runs of cases that are gone are dropped.
+    """Put these runs in place of former ones of the same cases.
+
+    Dropped are runs of cases that are gone, and those whose commit nobody noted: nobody can say what they are of.
 
     Returns:
         what the file holds now: the last run of each case, in the order of the registry.
     """
     last = newest([*read_results(path), *results])
-    kept = tuple(last[name] for name in CASES if name in last)
+    kept = tuple(last[name] for name in CASES if name in last and last[name].commit)
     write_file(path, "".join(to_line(result) + "\n" for result in kept))
     return kept
 
@@ -121,8 +129,9 @@ def to_line(result: CaseResult) -> str:
         for name in ("value", "limit"):
             number = float(finding[name])
             finding[name] = float(f"{number:.6g}") if math.isfinite(number) else None
-        if not finding["skipped"]:
-            del finding["skipped"]
+        for name in ("skipped", "regression", "alternative", "source"):
+            if not finding[name]:
+                del finding[name]
     data["seconds"], data["cpu"] = round(result.seconds, 1), round(result.cpu, 1)
     return json.dumps(data, ensure_ascii=False)
 

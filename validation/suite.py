@@ -14,6 +14,7 @@ from pysim.types import BadInput
 from validation.findings import Finding
 from validation.registry import CASES
 from validation.results import CaseResult, this_machine
+from validation.seeds import seeds_drawn
 
 
 def chosen(names: Sequence[str], *, quick: bool) -> list[str]:
@@ -46,14 +47,17 @@ def _run_case(name: str, watch: Callable[[str, Finding | None], None]) -> CaseRe
     date = datetime.now(UTC).strftime("%Y-%m-%dT%H:%M:%SZ")
     findings: list[Finding] = []
     try:
-        for finding in case.run():
-            findings.append(finding)
-            watch(name, finding)
+        with seeds_drawn() as seeds:
+            for finding in case.run():
+                findings.append(finding)
+                watch(name, finding)
     except Exception as stop:  # whatever it is, the page has to say so, and the other cases are still to be run
         traceback.print_exc()
         error = f"{type(stop).__name__}: {stop}".splitlines()[0][:300]
     seconds, cpu = time.monotonic() - started, _cpu() - before
-    return CaseResult(name, case.about, case.group, date, seconds, cpu, this_machine(), tuple(findings), error, commit)
+    return CaseResult(
+        name, case.about, case.group, date, seconds, cpu, this_machine(), tuple(findings), error, commit, seeds.text
+    )
 
 
 def _cpu() -> float:

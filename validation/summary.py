@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -10,6 +9,8 @@ from pysim.io import write_file
 from validation.findings import Finding
 from validation.registry import CASES, GROUPS
 from validation.results import FAILS, HOLDS, SKIPPED, CaseResult, keep_results, newest, verdict_of
+
+_SEEDS = 4  # shown in a row
 
 
 def record(root: Path, results: Iterable[CaseResult]) -> Path:
@@ -25,16 +26,20 @@ def record(root: Path, results: Iterable[CaseResult]) -> Path:
 
 
 def short_summary(results: Iterable[CaseResult]) -> str:
-    """A row per group, and which cases fail."""
+    """A row per group, and which cases fail: of the commit that was recorded last, and of no other."""
     last = newest(results)
+    commit = _commit(last)
+    now = {name: result for name, result in last.items() if result.commit == commit}
     rows = []
     for group, title in GROUPS.items():
         names = [name for name, case in CASES.items() if case.group == group]
-        done = [last[name] for name in names if name in last]
+        done = [now[name] for name in names if name in now]
         counts = [str(sum(result.count(verdict) for result in done)) for verdict in (HOLDS, FAILS, SKIPPED)]
-        rows.append([title, f"{len(done)} of {len(names)}", *counts])
-    head = ["", "cases recorded", "claims that hold", "fail", "skipped"]
-    words = (_failing(last), _commits(last))
+        checks = [finding for result in done for finding in result.checks]
+        kept = f"{sum(finding.holds for finding in checks)} of {len(checks)}" if checks else ""
+        rows.append([title, f"{len(done)} of {len(names)}", *counts, kept])
+    head = ["", "cases recorded", "claims that hold", "fail", "skipped", "regression checks that hold"]
+    words = (f"Counted: what commit {commit or '-'} recorded. {_older(last, commit)}", _failing(now))
     return "\n".join([*_table(head, rows), "", *words, ""])
 
 
@@ -50,31 +55,43 @@ def full_summary(results: Iterable[CaseResult], *, kept: bool = True) -> str:
     written = "by `pysim validate --record`: each case's last run" if kept else "by `pysim validate`: one run"
     lines = ["# What holds, and what does not", "", f"Written {written}."]
     lines += ["", short_summary(results).strip()] if kept else []
-    head = ["case", "what", "holds", "fails", "skipped", "CPU s", "date", "commit"]
+    head = ["case", "what", "holds", "fails", "skipped", "checks", "CPU s", "date", "commit", "seeds"]
+    commit = _commit(last)
     for group, title in GROUPS.items():
         names = [name for name, case in CASES.items() if case.group == group and (kept or name in last)]
         if names:
-            rows = [_row(name, f"[{name}]({CASES[name].readme})" if kept else name, last.get(name)) for name in names]
+            labels = {name: f"[{name}]({CASES[name].readme})" if kept else name for name in names}
+            rows = [_row(name, labels[name], last.get(name), commit) for name in names]
             others = [f"- {name}: {text}" for name in names if name in last for text in _not_held(last[name])]
             lines += ["", f"## {title}", "", *_table(head, rows), *(["", *others] if others else [])]
     machines = sorted({str(result.machine) for result in last.values()})
     return "\n".join([*lines, "", "Machines: " + "; ".join(machines) + ".", ""])
 
 
-def _row(name: str, label: str, result: CaseResult | None) -> list[str]:
+def _row(name: str, label: str, result: CaseResult | None, commit: str) -> list[str]:
     if result is None:
-        return [label, CASES[name].about, "", "", "", "", "not recorded", ""]
+        return [label, CASES[name].about, "", "", "", "", "", "not recorded", "", ""]
     counts = [str(result.count(verdict)) for verdict in (HOLDS, FAILS, SKIPPED)]
-    return [label, CASES[name].about, *counts, f"{result.cpu:.0f}", result.date[:10], result.commit or "-"]
+    checks = f"{sum(finding.holds for finding in result.checks)} of {len(result.checks)}" if result.checks else ""
+    of = result.commit if result.commit == commit else f"older: {result.commit or '-'}"
+    return [label, CASES[name].about, *counts, checks, f"{result.cpu:.0f}", result.date[:10], of, _few(result.seeds)]
 
 
-def _commits(last: Mapping[str, CaseResult]) -> str:
-    """How many cases each commit has recorded."""
-    counts = Counter(result.commit for result in last.values())
-    named = [f"{count} by commit {commit}" for commit, count in counts.most_common() if commit]
-    if counts[""]:
-        named.append(f"{counts['']} before commits were noted")
-    return f"Cases recorded: {', '.join(named)}." if named else ""
+def _few(seeds: str) -> str:
+    """The first few of many; recorded.jsonl has all."""
+    words = seeds.split(", ")
+    return seeds if len(words) <= _SEEDS else f"{', '.join(words[:_SEEDS])} and {len(words) - _SEEDS} more"
+
+
+def _commit(last: Mapping[str, CaseResult]) -> str:
+    """That of the newest record."""
+    return max(last.values(), key=lambda result: result.date).commit if last else ""
+
+
+def _older(last: Mapping[str, CaseResult], commit: str) -> str:
+    """Which records another commit made, and that they are counted nowhere."""
+    older = [name for name, result in last.items() if result.commit != commit]
+    return f"Older, and counted nowhere: {', '.join(older)}." if older else "No record is older."
 
 
 def _failing(last: Mapping[str, CaseResult]) -> str:
@@ -84,7 +101,7 @@ def _failing(last: Mapping[str, CaseResult]) -> str:
         for name, result in last.items()
         if result.verdict == FAILS
     ]
-    return f"Claims that fail: {', '.join(named)}." if named else "No claim of a recorded case fails."
+    return f"Claims that fail: {', '.join(named)}." if named else "No claim of these cases fails."
 
 
 def _not_held(result: CaseResult) -> list[str]:
@@ -93,7 +110,8 @@ def _not_held(result: CaseResult) -> list[str]:
 
 
 def _sentence(finding: Finding) -> str:
-    return f"{verdict_of(finding)}: {finding.outcome}"
+    check = "regression check, " if finding.regression else ""
+    return f"{check}{verdict_of(finding)}: {finding.outcome}"
 
 
 def _table(head: list[str], rows: list[list[str]]) -> list[str]:

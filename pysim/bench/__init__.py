@@ -7,8 +7,10 @@ from pysim.bench.read_plan import named_plans, read_plan
 from pysim.bench.run_plan import BenchData, run_plan
 from pysim.bench.sensor import Sensor
 from pysim.bench.truth import Truth, truth_data
+from pysim.bench.write_commands import FORMS, write_commands
 
 __all__ = [
+    "FORMS",
     "THESIS_LOGGER",
     "BenchData",
     "BenchTest",
@@ -26,4 +28,5 @@ __all__ = [
     "read_plan",
     "run_plan",
     "truth_data",
+    "write_commands",
 ]

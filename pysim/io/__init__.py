@@ -15,6 +15,7 @@ from pysim.io.fmu import read_model
 from pysim.io.headings import column_names
 from pysim.io.load.headings import name_and_unit
 from pysim.io.model_units import in_model_units
+from pysim.io.named_columns import optional_package
 from pysim.io.records import read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, signal_times, write_signal
 from pysim.io.single_log import read_single_log
@@ -24,7 +25,7 @@ from pysim.io.thesis_folder import LOG_SUFFIXES, read_thesis_folder
 from pysim.io.toml_section import Section, TomlFile, log_source, read_toml
 from pysim.io.toml_text import toml_key, toml_table
 from pysim.io.units import SI, shown_point, shown_unit, shown_value, signal_in_si
-from pysim.io.write_dataset import write_dataset
+from pysim.io.write_dataset import write_dataset, write_description
 from pysim.types.json_number import json_number
 
 __all__ = [
@@ -51,6 +52,7 @@ __all__ = [
     "log_source",
     "name_and_unit",
     "names_its_columns",
+    "optional_package",
     "read_dataset",
     "read_dataset_partly",
     "read_model",
@@ -73,6 +75,7 @@ __all__ = [
     "toml_table",
     "unusable_name",
     "write_dataset",
+    "write_description",
     "write_file",
     "write_record",
     "write_signal",

@@ -74,6 +74,29 @@ def write_dataset(
     return folder / "dataset.toml"
 
 
+def write_description(folder: Path, dataset: Dataset, units: Mapping[str, str]) -> Path:
+    """Write the dataset.toml of logs that are still to be measured: `read_dataset` reads them once they are there.
+
+    Args:
+        folder: of the logs, which records name as their source; made here.
+        dataset: of records whose data have the columns of the logs to come, and any rows.
+        units: signal -> unit in the files.
+    Raises:
+        BadInput: there is a dataset.toml already, or the place cannot be written.
+    """
+    path = folder / "dataset.toml"
+    if path.exists():
+        raise BadInput(f"{path} is there already; choose a new folder, so that it goes on describing its own logs")
+    scales = {signal.name: _scale(signal, units.get(signal.name, signal.unit)) for signal in dataset.signals}
+    named = {signal.name: units.get(signal.name, signal.unit) for signal in dataset.signals}
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        write_file(path, _description(dataset, dataset.name, named, scales, ()))
+    except OSError as error:
+        raise BadInput(f"{folder}: cannot write there ({error.strerror or error}); choose another folder") from error
+    return path
+
+
 def _scale(signal: MeasuredSignal, unit: str) -> Scale:
     """From the unit of the files to that of the signal."""
     known = conversion(unit, signal.unit)

@@ -1,12 +1,15 @@
 """Plant some forty faults, half by hand and half by a generator, and say which the tests do not notice.
 
     python3 run.py python -m tests.mutations [--seed 1] [--only NUMBER ...] [--list]
+    python3 run.py python -m tests.mutations --thesis [--json FILE]
 
 Works on a copy of the checkout; each fault is followed by the tests of its folder, until one fails. Exits with 1 where
-more than two faults survive. Takes about half an hour on two cores.
+more than two faults survive. Takes about half an hour on two cores. With --thesis the faults are those of thesis.toml,
+each followed by the tests that it names, and none may survive: a few minutes.
 """
 
 import argparse
+import json
 import os
 import shutil
 import subprocess
@@ -21,9 +24,10 @@ from queue import SimpleQueue
 from tests.mutations.generate import Fault, faults
 
 ROOT = Path(__file__).parents[2]
-BY_HAND = Path(__file__).parent / "by_hand.toml"
-ALLOWED = 2  # survivors
+BY_HAND, THESIS = (Path(__file__).parent / name for name in ("by_hand.toml", "thesis.toml"))
+ALLOWED = 2  # survivors, none of them in a formula of the thesis
 CACHE = Path("build") / "cache"  # as tests/conftest.py has it
+STORE = Path(os.environ.get("HTB_CACHE", ROOT / CACHE))  # what is built already
 TIMEOUT = 900.0  # s for the tests of one fault; a program that hangs has been noticed
 # Tests that should notice a fault below a folder: its own first, then those that use it.
 WATCHED_BY = {
@@ -51,18 +55,19 @@ def watching(path: Path) -> tuple[str, ...]:
     return ("tests/" + "/".join(path.parts[:2]),)
 
 
-def by_hand(root: Path) -> list[Fault]:
-    """The faults of by_hand.toml; each text has to stand exactly once in its file."""
+def written(root: Path, file: Path) -> list[Fault]:
+    """The faults of a file; each text has to stand exactly once in its place."""
     found = []
-    for entry in tomllib.loads(BY_HAND.read_text(encoding="utf-8"))["faults"]:
+    for entry in tomllib.loads(file.read_text(encoding="utf-8"))["faults"]:
         text = (root / entry["file"]).read_text(encoding="utf-8")
         if text.count(entry["old"]) != 1:
             sys.exit(
-                f"by_hand.toml: {entry['old']!r} stands {text.count(entry['old'])} times in {entry['file']}, not once"
+                f"{file.name}: {entry['old']!r} stands {text.count(entry['old'])} times in {entry['file']}, not once"
             )
         start = text.index(entry["old"])
         about = f"{entry['file']}:{text.count(chr(10), 0, start) + 1}: {entry['about']}"
-        found.append(Fault(Path(entry["file"]), start, start + len(entry["old"]), entry["new"], about))
+        end, tests = start + len(entry["old"]), tuple(entry.get("tests", ()))
+        found.append(Fault(Path(entry["file"]), start, end, entry["new"], about, tests))
     return found
 
 
@@ -73,7 +78,7 @@ def noticed(copy: Path, fault: Fault) -> str:
     path.write_text(text[: fault.start] + fault.text + text[fault.end :], encoding="utf-8")
     environment = os.environ | {"PYTHONPATH": str(copy), "HTB_CACHE": str(copy / CACHE)}
     try:
-        for tests in watching(fault.path):
+        for tests in fault.tests or watching(fault.path):
             words = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "--no-header", tests]
             try:
                 done = subprocess.run(
@@ -98,8 +103,8 @@ def copied(folder: Path) -> Path:
         if (ROOT / name).is_file():
             (folder / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(ROOT / name, folder / name)
-    if (ROOT / CACHE).is_dir():
-        shutil.copytree(ROOT / CACHE, folder / CACHE)
+    if STORE.is_dir():
+        shutil.copytree(STORE, folder / CACHE, symlinks=True, ignore=shutil.ignore_patterns("workbench"))
     return folder
 
 
@@ -109,8 +114,11 @@ def main() -> int:
     parser.add_argument("--only", type=int, nargs="*", help="numbers of faults, as --list prints them")
     parser.add_argument("--list", action="store_true", help="print the faults and plant none")
     parser.add_argument("--workers", type=int, default=os.cpu_count() or 1, help="faults at a time (one a core)")
+    parser.add_argument("--thesis", action="store_true", help="only the formulas of the thesis")
+    parser.add_argument("--json", type=Path, help="write about and test of each fault here, a line of JSON each")
     args = parser.parse_args()
-    planted = dict(enumerate([*by_hand(ROOT), *faults(ROOT, args.seed)], 1))
+    chosen = written(ROOT, THESIS) if args.thesis else [*written(ROOT, BY_HAND), *faults(ROOT, args.seed)]
+    planted = dict(enumerate(chosen, 1))
     if args.only:
         planted = {number: planted[number] for number in args.only}
     if args.list:
@@ -132,8 +140,11 @@ def main() -> int:
         for number, test, took in pool.map(ask, planted):
             print(f"{number:3} {planted[number].about}\n    {test or 'SURVIVES'} ({took:.0f} s)", flush=True)
             survivors += [] if test else [planted[number].about]
+            if args.json:
+                with args.json.open("a", encoding="utf-8") as file:
+                    file.write(json.dumps({"about": planted[number].about, "test": test}) + "\n")
     print(f"\n{len(planted)} faults, {len(survivors)} not noticed", *survivors, sep="\n  ")
-    return int(len(survivors) > ALLOWED)
+    return int(len(survivors) > (0 if args.thesis else ALLOWED))
 
 
 if __name__ == "__main__":

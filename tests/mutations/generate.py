@@ -55,6 +55,7 @@ class Fault:
         start, end: the characters that are replaced.
         text: what replaces them.
         about: what was done, for the list of survivors.
+        tests: that should notice it; those of its folder where none is named.
     """
 
     path: Path
@@ -62,6 +63,7 @@ class Fault:
     end: int
     text: str
     about: str
+    tests: tuple[str, ...] = ()
 
 
 def faults(root: Path, seed: int) -> list[Fault]:

@@ -3,6 +3,7 @@
 from collections.abc import Iterator
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
@@ -29,6 +30,15 @@ def broken() -> SimpleNamespace:
     return SimpleNamespace(run=run)
 
 
+def drawing() -> SimpleNamespace:
+    def run() -> Iterator[Finding]:
+        for seed in (7, 3, 4, 5):
+            yield Finding("below its limit", float(np.random.default_rng(seed).random()), 1.0, "")
+        yield Finding("the same again", 0.0, 0.0, "", regression=True)
+
+    return SimpleNamespace(run=run)
+
+
 MODULES = {
     "good": made_of(*GOOD),
     "bad": made_of(*BAD),
@@ -44,7 +54,8 @@ def result(name: str, *findings: Finding, date: str = "2026-01-02T03:04:05Z", er
 
 def use(monkeypatch: pytest.MonkeyPatch) -> None:
     """Let the suite know these cases and no others."""
-    monkeypatch.setattr("validation.registry.import_module", lambda module: MODULES[module.split(".")[1]])
+    modules = {**MODULES, "drawing": drawing()}
+    monkeypatch.setattr("validation.registry.import_module", lambda module: modules[module.split(".")[1]])
     for module in ("validation.suite", "validation.summary", "validation.page", "validation.results"):
         monkeypatch.setattr(f"{module}.CASES", CASES)
     monkeypatch.setattr("validation.registry.CASES", CASES)

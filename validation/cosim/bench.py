@@ -72,7 +72,7 @@ def findings() -> Iterator[Finding]:
             for name, text in (CONTINUOUS | SAMPLED).items():
                 worst = _difference(record[f"rig.{name}"], known[f"rig.{name}"], sign=name == "omegaS")
                 claim = f"rig, FMI {fmi} {interface}: {text} against the monolithic model"
-                yield Finding(claim, worst, limit, "of its range")
+                yield Finding(claim, worst, limit, "of its range", regression=True)
     yield _late()
     yield _repeated()
 
@@ -91,7 +91,8 @@ def _late() -> Finding:
     worst = min(
         np.abs(np.diff(monolithic()[f"rig.{name}"])).max() / np.ptp(monolithic()[f"rig.{name}"]) for name in SAMPLED
     )
-    return Finding("rig: limit of the comparison over what one sample more would make", 1e-4 / float(worst), 0.1, "")
+    claim = "rig: limit of the comparison over what one sample more would make"
+    return Finding(claim, 1e-4 / float(worst), 0.1, "", regression=True)
 
 
 def _repeated() -> Finding:
@@ -104,4 +105,4 @@ def _repeated() -> Finding:
         run.advance()
         again = run.record()
     worst = float(np.abs(first.values - again.values).max())
-    return Finding("rig: saved at 1.234 s and run on twice, largest difference", worst, 0.0, "")
+    return Finding("rig: saved at 1.234 s and run on twice, largest difference", worst, 0.0, "", regression=True)

@@ -54,7 +54,7 @@ def of_stored(name: str, before: Kept | None, told: Told | None) -> Iterator[Fin
         yield Finding(f"{name}: answers that are not stored", 1.0, 0, "")
     elif told is not None:
         claim = f"{name}: stored {before.verdict}, of {before.day}, truth {' and '.join(told.names)}; wrong"
-        yield Finding(claim, float(not _right(before.verdict, before.added, told)), 0, "")
+        yield Finding(claim, float(not _right(before.verdict, before.added, told)), 0, "", regression=True)
 
 
 def _right(verdict: str, added: Sequence[str], told: Told) -> bool:
@@ -90,11 +90,12 @@ def against_truth(name: str, found: Diagnosis, told: Told) -> Iterator[Finding]:
 def against_stored(name: str, now: Kept, before: Kept | None) -> Iterator[Finding]:
     """The same words, and estimates within a tenth of their interval."""
     if before is None:
-        yield Finding(f"{name}: answers that are not stored", 1.0, 0, "")
+        yield Finding(f"{name}: answers that are not stored", 1.0, 0, "", regression=True)
         return
     differs = (now.verdict, now.added) != (before.verdict, before.added)
-    yield Finding(f"{name}: {now.verdict}, stored {before.verdict}; differs", float(differs), 0, "")
+    yield Finding(f"{name}: {now.verdict}, stored {before.verdict}; differs", float(differs), 0, "", regression=True)
     for key, (value, low, high) in before.values.items():
         if key in now.values:
             off = abs(now.values[key][0] - value) / max((high - low) / 2, 1e-300)
-            yield Finding(f"{name}: {key} = {now.values[key][0]:.4g}, off that stored by", off, _NEAR, "half widths")
+            claim = f"{name}: {key} = {now.values[key][0]:.4g}, off that stored by"
+            yield Finding(claim, off, _NEAR, "half widths", regression=True)

@@ -54,8 +54,8 @@ def run() -> Iterator[Finding]:
             elif _largest(both, base) < 1e-3:
                 idle.append(name)
     yield Finding(f"pairs of {count} that do not build{_names(refused)}", float(len(refused)), 0, "")
-    yield Finding("both off: largest difference from the base model's angle", exact, 2e-3, "percent")
-    yield Finding("both off, one of them by a limit: the same", shrunk, 0.1, "percent")
+    yield Finding("both off: largest difference from the base model's angle", exact, 2e-3, "percent", regression=True)
+    yield Finding("both off, one of them by a limit: the same", shrunk, 0.1, "percent", regression=True)
     yield Finding(f"both on: pairs whose run stops early{_names(stopped)}", float(len(stopped)), 0, "")
     yield Finding(f"both on: pairs that change nothing{_names(idle)}", float(len(idle)), 0, "")
 

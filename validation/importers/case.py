@@ -43,7 +43,13 @@ def run() -> Iterator[Finding]:
     """Stored results, importers, checker."""
     for exported in EXPORTED:
         off = exported.off(exported.tight())
-        yield Finding(f"{exported.name}: stored results against the native loop at 1e-9", off, _SAME, "of the range")
+        yield Finding(
+            f"{exported.name}: stored results against the native loop at 1e-9",
+            off,
+            _SAME,
+            "of the range",
+            regression=True,
+        )
         for fmi in VERSIONS:
             for importer in IMPORTERS:
                 yield _imported(exported, fmi, importer)

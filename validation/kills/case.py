@@ -18,7 +18,13 @@ def run() -> Iterator[Finding]:
         cases = [f"{name}-{seed}" for seed in range(1, count + 1)]
         lines = answered("validation.kills.one", cases, file_of("kills"), workers=1, together=count, say=_said)
         told = "".join(f"; {line['case']}: {line.get('trouble') or line.get('said')}" for line in lines if _lost(line))
-        yield Finding(f"{name}: results after {count} kills that differ{told}", sum(map(_lost, lines)), 0.0, "runs")
+        yield Finding(
+            f"{name}: results after {count} kills that differ{told}",
+            sum(map(_lost, lines)),
+            0.0,
+            "runs",
+            regression=True,
+        )
         half = [line["half"] for line in lines if line.get("half")]
         told = f" ({half[0]})" if half else ""
         yield Finding(f"{name}: files that a kill leaves half written{told}", float(len(half)), 0.0, "files")

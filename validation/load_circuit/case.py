@@ -71,6 +71,11 @@ def run() -> Iterator[Finding]:
     yield from pulses()
 
 
+def at_working_point() -> Linear:
+    """The open bench at the working point of Eq. 5.29."""
+    return _at({})
+
+
 def _at(changes: Mapping[str, float]) -> Linear:
     return linearised(fmu_build.build(OPEN), {**WORKING_POINT, **changes}, {"alphaCMD": 0.0, "u_ref": 0.1})
 

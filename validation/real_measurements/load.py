@@ -61,7 +61,9 @@ class Coupling:
 
 def load_differences() -> tuple[LoadDifference, ...]:
     """Of the two amplitudes that were measured with and without load."""
-    unloaded = {r.data.test.amplitude: r.data for r in _at_75().records if isinstance(r.data, FrequencyResponse)}
+    unloaded = {
+        r.data.test.amplitude: r.data for r in unloaded_at_75().records if isinstance(r.data, FrequencyResponse)
+    }
     misfit = {(row.offset, row.amplitude): row.values for row in published_deviations("4.4")}
     found = []
     for loaded in loaded_responses():
@@ -76,7 +78,7 @@ def load_differences() -> tuple[LoadDifference, ...]:
 def couplings(differences: Sequence[LoadDifference]) -> tuple[Coupling, ...]:
     """What each quantity of the free model would explain alone, to first order, the best first."""
     model, names = _free_with_effects()
-    task = problem(model, [_at_75()], [Parameter(name) for name in names])
+    task = problem(model, [unloaded_at_75()], [Parameter(name) for name in names])
     point = task.residuals().evaluate(model, task.space, task.space.to_search(task.space.start))
     d = np.concatenate([_weighted(one) for one in differences])
     values, slopes = task.space.values(point.x), task.space.slope(point.x)
@@ -96,7 +98,8 @@ def _weighted(one: LoadDifference) -> Array:
     return np.concatenate([one.db / sizes[0], one.deg / sizes[1]])
 
 
-def _at_75() -> Dataset:
+def unloaded_at_75() -> Dataset:
+    """Table 4.1's responses at 75 percent that were measured under load too."""
     dataset = reference((5.0, 10.0))
     records = [r for r in dataset.records if isinstance(r.data, FrequencyResponse) and r.data.test.offset == 75.0]
     return replace(dataset, records=tuple(records))

@@ -43,9 +43,11 @@ def run() -> Iterator[Finding]:
 
 def _against(named: str, record: Record, whole: Whole, way: str) -> Iterator[Finding]:
     off = max(_share(record[n] - whole.rows[n], whole.rows[n]) for n in CONTINUOUS)
-    yield Finding(f"{named}: continuous parts off the monolithic model", off, _TOLERANCE[way], "of the largest")
+    yield Finding(
+        f"{named}: continuous parts off the monolithic model", off, _TOLERANCE[way], "of the largest", regression=True
+    )
     near = max(_nearest(record[n], whole.after[n], whole.before[n]) for n in SAMPLED)
-    yield Finding(f"{named}: commands off it, to one sample", near, _TOLERANCE[way], "of the largest")
+    yield Finding(f"{named}: commands off it, to one sample", near, _TOLERANCE[way], "of the largest", regression=True)
 
 
 def _between(named: str, runs: Mapping[float, Record], whole: Mapping[float, Whole]) -> Iterator[Finding]:
@@ -58,7 +60,7 @@ def _between(named: str, runs: Mapping[float, Record], whole: Mapping[float, Who
             f"{named}: load pressure at {1e3 * coarse:g} ms differs from that at 0.1 ms by up to "
             f"{np.abs(coupled).max() / 1e5:.2f} bar; not explained by the sampling"
         )
-        yield Finding(claim, _share(coupled - inside, inside), 1e-3, "of it")
+        yield Finding(claim, _share(coupled - inside, inside), 1e-3, "of it", regression=True)
 
 
 def _in_waves() -> Iterator[Finding]:
@@ -70,11 +72,11 @@ def _in_waves() -> Iterator[Finding]:
         record = _coupled(speed, load, 2, way, 1e-3, times)
         off = max(_share(record[n] - whole[n], whole[n]) for n in CONTINUOUS)
         claim = f"20 s of heave with stick and slip, {way}: continuous parts off the monolithic model"
-        yield Finding(claim, off, _IN_WAVES[way], "of the largest")
+        yield Finding(claim, off, _IN_WAVES[way], "of the largest", regression=True)
         late = np.abs(record["rig.omegaS"] - whole["rig.omegaS"]) > _IN_WAVES[way] * np.abs(whole["rig.omegaS"]).max()
         longest = int(np.diff(np.flatnonzero(np.diff(np.concatenate([[0], late, [0]])))).max(initial=0))
         claim = f"{way}: rows in a row, 10 ms apart, whose pulses have another sign than the monolithic model's"
-        yield Finding(claim, longest, 1, "")
+        yield Finding(claim, longest, 1, "", regression=True)
 
 
 @dataclass(frozen=True)

@@ -1,6 +1,7 @@
 """A hose between a pump and its end, in closed form: the wave equation, and its segments one by one.
 
-Both with friction of the mean flow, linearised, and a wall whose pressure lags behind its volume.
+Both with friction of the mean flow, linearised, and a wall whose pressure lags behind its volume; the wave
+equation with friction that depends on the frequency too.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.special import jve
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complexfloating]
@@ -27,6 +29,7 @@ class Hose:
     viscosity: float = 46e-6
     roughness: float = 1e-4
     end: float = 0.0  # Pa.s/m3, resistance at the end; 0 is a tank
+    unsteady: bool = False  # friction that depends on the frequency
 
     def with_lag(self, lag: float) -> Hose:
         """The same hose with another wall."""
@@ -42,10 +45,20 @@ class Hose:
         return float(np.sqrt(1 / (1 / self.oil + 1 / self.wall) / self.density))
 
     def series(self, omega: Array, flow: float) -> Complex:
-        """Impedance per length (n,), Pa.s/m4."""
+        """Impedance per length (n,), Pa.s/m4.
+
+        Unsteady friction is that of laminar flow; what turbulence of the mean flow adds is added as it is when steady.
+        """
         step = 1e-4 * flow
         slope = (self.gradient(flow + step) - self.gradient(flow - step)) / (2 * step)
+        if self.unsteady:
+            return laminar_impedance(omega, self.diameter / 2, self.density, self.viscosity) + (slope - self.poiseuille)
         return 1j * omega * self.density / self.area + slope
+
+    @property
+    def poiseuille(self) -> float:
+        """Loss of pressure over length and flow of steady laminar flow, Pa.s/m4."""
+        return 8 * self.density * self.viscosity / (self.area * (self.diameter / 2) ** 2)
 
     def shunt(self, omega: Array) -> Complex:
         """Admittance per length (n,), m2/(Pa.s)."""
@@ -80,3 +93,19 @@ class Hose:
             p = p + series * q
             q = q + p * shunt * (1.0 if left > 1 else 0.5)
         return np.abs(1 / q)
+
+
+def laminar_impedance(omega: Array, radius: float, density: float, viscosity: float) -> Complex:
+    """Series impedance per length (n,) of laminar flow in a round bore, Pa.s/m4.
+
+    Args:
+        omega: (n,) rad/s, above 0.
+        radius: m.
+        density: kg/m3.
+        viscosity: kinematic, m2/s.
+    Source: W. Zielke 1968, Frequency-dependent friction in transient pipe flow, J. Basic Eng. 90: j omega rho / A over
+    1 - 2 J_1(z) / (z J_0(z)), z = sqrt(-j omega / nu) r.
+    """
+    z = radius * np.sqrt(-1j * np.asarray(omega, dtype=np.float64) / viscosity)
+    inertia = 1j * omega * density / (np.pi * radius**2)
+    return np.asarray(inertia / (1 - 2 * jve(1, z) / (z * jve(0, z))))

@@ -1,4 +1,4 @@
-"""`python -m validation.ripple.pictures FOLDER`: hose.png and relief.png, thesis Fig. 4.9 and 4.11 redone."""
+"""`python -m validation.ripple.pictures FOLDER`: thesis Fig. 4.9 and 4.11 redone, and what takes the ripple away."""
 
 from __future__ import annotations
 
@@ -67,6 +67,28 @@ def _passed(axes: Axes, flow: float) -> None:
     axes.legend(fontsize=SMALL, frameon=False, loc="upper left", ncols=2, handlelength=1.8, columnspacing=1.0)
 
 
+def cause_picture() -> Figure:
+    """What arrives between 1300 and 1600 rpm, by what could have taken it away."""
+    flow, hertz = float(hose.measured()["before.Q"].mean()), hose.NEAR
+    segments = [Hose().with_lag(0.0).passed_by_segments(n, hertz, flow) for n in (4, 2, 1)]
+    rows = {f"{n} segment{'s' if n > 1 else ''}": share for n, share in zip((4, 2, 1), segments, strict=True)}
+    rows |= {"70 MPa and a loss factor of 0.27": hose.damped().passed(hertz, flow)}
+    rows |= {words: line.passed(hertz, flow) for words, (line, _) in reversed(list(hose.causes().items()))}
+    rows |= {"none": Hose().with_lag(0.0).passed(hertz, flow)}
+    figure = new_figure(7.2, 3.2)
+    axes = figure.subplots()
+    quiet(axes)
+    for place, share in enumerate(rows.values()):
+        hidden = float(share.max()) <= hose.UNSEEN
+        axes.plot([share.min(), share.max()], [place, place], color=COLOURS[1 if hidden else 0], linewidth=6)
+    axes.axvline(hose.UNSEEN, color=LIMIT, linewidth=0.8, linestyle=DASHES[1])
+    axes.text(0.9 * hose.UNSEEN, len(rows) - 1, "a line's width", fontsize=SMALL, color="#555555", ha="right")
+    axes.set_xscale("log")
+    axes.set_yticks(range(len(rows)), list(rows), fontsize=SMALL)
+    axes.set_xlabel("Ripple that arrives, over that of the pump, 390 to 480 Hz (1)", fontsize=TEXT)
+    return figure
+
+
 def relief_picture() -> Figure:
     """Opening over time with ripple and without, and its swing over the valve's natural frequency."""
     figure = new_figure(7.2, 3.4)
@@ -109,6 +131,7 @@ def main(folder: Path) -> None:
     """Write both pictures."""
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "hose.png").write_bytes(render(hose_picture(), "png"))
+    (folder / "causes.png").write_bytes(render(cause_picture(), "png"))
     (folder / "relief.png").write_bytes(render(relief_picture(), "png"))
 
 

@@ -12,7 +12,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.bench import BenchData, Plan, read_plan, run_plan
+from pysim.bench import BenchData, Plan, read_plan, run_plan, write_commands
 from pysim.identify.data_check import check_dataset
 from pysim.io import read_dataset, write_dataset
 from pysim.thesis import pump_model
@@ -21,6 +21,7 @@ from validation.findings import Finding
 
 MEASUREMENTS = Path(__file__).parents[1] / "measurements"
 SEED = 1
+_PLAYED_HZ, _NEAR = 1000.0, 1e-3
 _COMMAND, _ANGLE = "alphaCMD", "alphaPercent"
 _RENAMED = {"K_d": "K_D"}
 
@@ -36,6 +37,7 @@ def run() -> Iterator[Finding]:
     yield from _against_the_independent_plant(measured, data.truth.clean)
     yield from _own_noise(data)
     yield _round_trip(plan, data)
+    yield _played(plan, measured)
 
 
 def true_parameters() -> dict[str, float]:
@@ -91,7 +93,35 @@ def _round_trip(plan: Plan, data: BenchData) -> Finding:
         if isinstance(new.data, Record) and isinstance(old.data, Record)
         for name in new.data.names
     )
-    return Finding("written and read again: largest difference in halves of the last digit", worst, 1 + 1e-6, "")
+    return Finding(
+        "written and read again: largest difference in halves of the last digit", worst, 1 + 1e-6, "", regression=True
+    )
+
+
+def _played(plan: Plan, measured: Dataset) -> Finding:
+    """Files for LabVIEW against what the independent author's bench logged as its command."""
+    logs = {record.source: record.data for record in measured.records}
+    worst, compared = 0.0, 0
+    with tempfile.TemporaryDirectory() as folder:
+        write_commands(plan, Path(folder) / "bench", form="csv", sampling_hz=_PLAYED_HZ)
+        for run in plan.runs():
+            log = logs.get(run.source)
+            if run.kind == "stochastic" or not isinstance(log, Record):
+                continue  # its phases are another draw
+            path = (Path(folder) / "bench" / "commands" / run.source).with_suffix(".csv")
+            value = np.loadtxt(path, delimiter=",", skiprows=1)[:, 1]
+            rows = np.rint(log.time * _PLAYED_HZ).astype(int)
+            near = np.abs(log.time * _PLAYED_HZ - rows) < _NEAR  # a sample of the file, to the printed digits of time
+            worst = max(worst, float(np.abs(value[rows[near]] - log[_COMMAND][near]).max()))
+            compared += int(near.sum())
+    return Finding(
+        f"bench-01 as files for LabVIEW, {compared} samples against commands that an independent bench logged: off by",
+        worst,
+        1e-4,
+        "%",
+        alternative="offset, amplitude, frequency or start of a file are another test's: off by a percent and more",
+        source="printed digits, and a time stamp that is off by 0.01 of a sample at 30 Hz",
+    )
 
 
 def _rms(values: NDArray[np.float64]) -> float:

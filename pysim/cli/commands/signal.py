@@ -6,7 +6,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from pysim.cli.command import Command, Given
+from pysim.cli.command import DONE, Command, Given
 from pysim.cli.option import Option, Role, choice, file, number, switch, text
 
 if TYPE_CHECKING:
@@ -128,6 +128,19 @@ def _needed(flag: str, unit: str, about: str) -> Option:
 _AMPLITUDE = _needed("--amplitude", "A", "amplitude of the sine, in the command's unit")
 _SEED = number("--seed", "N", 0, "random seed of the phases", convert=int)
 _PLACES = ("file", "output")
+
+
+def _plan(given: Given) -> int:
+    """Every command of a plan, and where its logs are to lie."""
+    from pysim.bench import read_plan, write_commands
+
+    plan = read_plan(given.plan)
+    written = write_commands(plan, given.into, form=given.form, logs=given.logs, sampling_hz=given.sampling)
+    print(f"{plan.name}: {len(written) - 2} commands in {given.into}, which {written[-2]} lists")
+    print(f"Put the logs where it says, then: pysim data check {given.into}")
+    return DONE
+
+
 _SHARED = (
     number("--offset", "LEVEL", 0.0, "offset of the command, in its unit"),
     number("--rest", "SECONDS", 0.5, "rest at zero before the test"),
@@ -197,6 +210,20 @@ COMMAND = Command(
             choice("--lines", "random-odd", ("full", "odd", "random-odd"), "kind of excited lines"),
             number("--periods", "N", 3.0, "number of periods"),
             _SEED,
+        ),
+        Command(
+            "plan",
+            "every command of a test plan, for LabVIEW or a signal generator, and the dataset.toml of its logs",
+            _plan,
+            options=(
+                text("--plan", "PLAN", "a .toml, or a plan of this program: bench-01, thesis", required=True),
+                Option(
+                    ("--into",), "new folder for the commands and, later, the logs", "DIR", convert=Path, required=True
+                ),
+                choice("--form", "csv", ("csv", "tdms", "generator"), "time and value, or -1 to 1 for a generator"),
+                choice("--logs", "tdms", ("tdms", "csv", "txt", "parquet"), "suffix of the logs to come"),
+                number("--sampling", "HZ", 1000.0, "rows per second"),
+            ),
         ),
     ),
 )

@@ -37,6 +37,8 @@ def run(given: Given) -> int:
         numbers = prepare_file(given.json, "--json", (".json", ".jsonl"))
         if numbers.is_file():  # not a device, such as /dev/null
             numbers.unlink()
+    if given.record:
+        _check_commit()
     checkout = _CLONE if given.record else None
     show = _Show(len(names))
     results = []
@@ -68,6 +70,8 @@ class _Show:
         """One more case is done."""
         self._done += 1
         end = f"FAILED, {result.error}" if result.error else {"fails": "FAILED"}.get(result.verdict, result.verdict)
+        skipped = result.count("skipped")
+        end += f" ({skipped} of {len(result.findings)} claims skipped)" if skipped else ""
         took = f"{result.seconds:.1f} s, {result.cpu:.1f} s of CPU"
         print(f"  {end} in {took} ({self._done} of {self._total})", flush=True)
 
@@ -81,6 +85,17 @@ def _check_clone() -> None:
             "the cases and their data are not installed with the package; clone the project and type "
             "`python3 run.py validate` in its folder"
         )
+
+
+def _check_commit() -> None:
+    """Raise BadInput where a record could not say which code it is of."""
+    from fmu_build.version import this_commit
+    from pysim.types import BadInput
+
+    commit = this_commit()
+    if not commit or commit.endswith("-dirty"):
+        what = "the checkout differs from its commit" if commit else "this is no clone of the repository"
+        raise BadInput(f"--record: a record carries the commit it is of, and {what}; commit first, then record")
 
 
 COMMAND = Command(

@@ -66,9 +66,22 @@ def test_a_device_is_written_to_and_stays(tmp_path: Path) -> None:
 def test_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "validation").mkdir()
     monkeypatch.setattr(validate, "_CLONE", tmp_path)
+    for module in ("fmu_build.version", "validation.suite"):
+        monkeypatch.setattr(f"{module}.this_commit", lambda: "0123456789ab")
     for _ in range(2):
         assert main(["validate", "good", "--record"]) == 0
     assert len(read_results(tmp_path / "validation" / "recorded.jsonl")) == 1
     written = (tmp_path / "validation" / "RESULTS.md").read_text(encoding="utf-8")
-    assert "| 1 of 4 | 1 | 0 | 1 |" in written
-    assert "| [good](good/README.md) | about good | 1 | 0 | 1 |" in written
+    assert "| 1 of 4 | 1 | 0 | 1 |  |" in written
+    assert "| [good](good/README.md) | about good | 1 | 0 | 1 |  |" in written
+
+
+@pytest.mark.parametrize("commit", ["", "0123456789ab-dirty"])
+def test_nothing_is_recorded_that_no_commit_stands_for(
+    commit: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(validate, "_CLONE", tmp_path)
+    monkeypatch.setattr("fmu_build.version.this_commit", lambda: commit)
+    assert main(["validate", "good", "--record"]) == 2
+    assert "commit first, then record" in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []

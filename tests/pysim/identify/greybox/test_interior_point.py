@@ -3,7 +3,8 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog, lsq_linear
 
-from pysim.identify.greybox.interior_point import InteriorPoint
+from pysim.identify.greybox.interior_point import InteriorPoint, _Barrier
+from pysim.identify.greybox.optimiser import Bounds
 from pysim.identify.greybox.search import search
 from pysim.types import BadInput, FitOutcome
 from tests.pysim.identify.greybox.functions import evaluating, linear, rosenbrock, rosenbrock_slopes, space
@@ -89,6 +90,22 @@ def test_a_start_on_a_bound_is_moved_inside_and_bad_points_are_survived() -> Non
     state = search(evaluate, InteriorPoint(tolerance=1e-6, max_iterations=500), s, s.start, squares=False)
     assert state.best.x == pytest.approx([1.0, 1.0], abs=1e-2)
     assert state.best.cost < 1e-2
+
+
+@pytest.mark.parametrize("wanted", [-4.0, 0.2, 5.0])
+def test_a_step_is_the_minimum_of_equation_2_23(wanted: float) -> None:
+    """Of (x - c)^2 / 2 - mu (ln(U - x) + ln(x - L)): its slope there is that of a cubic's root."""
+    low, high, mu = -1.0, 2.0, 0.3
+    evaluate = evaluating(lambda x: x - wanted, lambda x: np.ones((1, 1)))
+    start = evaluate(np.array([0.5]), {})
+    found = 0.5 + _Barrier(Bounds(np.array([low]), np.array([high])), mu, True).step(start, 0.0)[0]
+    # (x - c) (U - x) (x - L) + mu (x - L) - mu (U - x) = 0
+    cubic = np.polyadd(
+        np.polymul(np.polymul([1, -wanted], [-1, high]), [1, -low]),
+        np.polyadd([mu, -mu * low], [mu, -mu * high]),
+    )
+    inside = [root.real for root in np.roots(cubic) if abs(root.imag) < 1e-9 and low < root.real < high]
+    assert found == pytest.approx(inside[0], abs=1e-6)
 
 
 def test_settings_out_of_range_are_refused() -> None:

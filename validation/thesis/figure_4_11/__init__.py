@@ -1,1 +1,0 @@
-"""Figure 4.11: a relief valve shaken by the ripple."""

@@ -1,1 +1,0 @@
-"""Figure 4.9: the ripple before and after a hose."""
