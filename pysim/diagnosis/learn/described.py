@@ -93,7 +93,7 @@ def covariance_of(gram: Array, smooth: Smoothness, values: Array, inflated: floa
     covariance = np.linalg.inv(precision) * inflated
     line = lines(k)
     spread, ways = np.linalg.eigh(line.T @ covariance @ line)
-    absorbed = line @ ways[:, np.sqrt(spread) > _ABSORBED * float(np.linalg.norm(values))]
+    absorbed = line @ ways[:, np.sqrt(np.maximum(spread, 0.0)) > _ABSORBED * float(np.linalg.norm(values))]
     bias = np.linalg.solve(precision, rough @ values) * (1 - _UNDER)
     keep = np.eye(m) - absorbed @ absorbed.T
     beside = missed(k, values)
