@@ -18,6 +18,10 @@ _WORDS = {
         "degrees were assumed for each point (thesis Eq. 2.25)."
     ),
     NoteCode.NOT_COMPARED: "{record} was left out: none of its columns is compared.",
+    NoteCode.NOT_WIRED: (
+        "{outputs} goes nowhere and nothing drives {inputs}, which stays at its start value: add a wire "
+        "'{output}': '{input}', or give {input} a value under inputs."
+    ),
     NoteCode.NOT_SETTLED: (
         "{record}{more}: the first period is unlike those after it. Either the plant had not settled, or the noise has "
         "a long memory. The log is compared sample by sample from its start."

@@ -15,6 +15,9 @@ class NoteCode(Enum):
     NOISE_ESTIMATED = "noise_estimated"  # dataset, signal, value, unit: not specified, estimated from the data
     NOISE_ASSUMED = "noise_assumed"  # dataset, magnitude (dB), phase (deg): of tables that state none
     NOT_COMPARED = "not_compared"  # record: no column of it is
+    NOT_WIRED = (
+        "not_wired"  # outputs of controllers that go nowhere, inputs that nothing drives; output, input: the first
+    )
     NOT_SETTLED = "not_settled"  # record, others (how many more): its first period is unlike those after it
     NOT_SIMULATED = "not_simulated"  # record, reason (what the run said): the model could not be run through it
     NOT_TRIED = "not_tried"  # effect, reason (a code): it has no slot, does not compile, disturbs the others
