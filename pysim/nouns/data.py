@@ -36,6 +36,7 @@ from pysim.io.prepare import (
 )
 from pysim.io.write_dataset import write_dataset
 from pysim.nouns.data_check import Check
+from pysim.nouns.model import Model
 from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
 
@@ -190,6 +191,8 @@ class Data(Shown):
         logs = [record for record in self.now.logs() if not record.held_out] or list(self.now.logs())
         if model is None:
             return {}
+        if isinstance(model, Model):  # from its own start, as states estimated from a wrong column are wrong too
+            return {r.source: model.simulate(self._for_model(r), initial={}).record for r in logs}
         if hasattr(model, "simulate"):
             return {record.source: _record(model.simulate(self._for_model(record))) for record in logs}
         if isinstance(model, Mapping):

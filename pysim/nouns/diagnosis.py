@@ -60,7 +60,7 @@ def diagnose(
     parts = _parts(model, dataset, begin, effects)
     work = partial(searched, checkpoint=None if checkpoint is None else Path(checkpoint))
     found = _asked(parts, work, progress, f"diagnosing {model.name}", Settings(max_effects=max_effects))
-    return Diagnosis(found, model, parts)
+    return Diagnosis(found, replace(model, measured=dataset, initial=begin), parts)
 
 
 def locate(
@@ -191,7 +191,7 @@ class Diagnosis(Shown):
 
     @property
     def model(self) -> Model:
-        """The model with what was found, refitted."""
+        """The model with what was found, refitted; it simulates the logs as the diagnosis began them."""
         effects = [one for one in self.found.effects if one.effect.class_name]
         laws = {law.slot: law for law in self.missing[: len(self.found.learned)] if law.found.modelica}
         inner = {one.effect.slot: one.effect for one in effects if one.effect.slot in laws}  # part of the law's class

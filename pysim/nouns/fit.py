@@ -156,9 +156,10 @@ class Fit(Shown):
 
     @property
     def model(self) -> Model:
-        """The model at the estimates; its parameters stay as free as they were."""
+        """The model at the estimates, which simulates the logs as they are shown here; it stays as free as it was."""
         values = {name: value for name, value in self.found.values.items() if "@" not in name}
-        return replace(self.begun, values={**self.begun.values, **values}, label=f"{self.begun.shown} fitted")
+        known = {"label": f"{self.begun.shown} fitted", "measured": self.dataset, "initial": self.initial}
+        return replace(self.begun, values={**self.begun.values, **values}, **known)
 
     @property
     def residuals(self) -> Mapping[str, Run]:
