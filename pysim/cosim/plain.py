@@ -101,7 +101,7 @@ class PlainBlock:
 
 @dataclass(frozen=True)
 class Unwired:
-    """A controller whose ports and units its wires have yet to tell; its fields are those of `Sampled`."""
+    """A controller whose ports and units its wires have yet to give; its fields are those of `Sampled`."""
 
     name: str
     controller: Any

@@ -105,7 +105,7 @@ class Model(Shown):
         candidates: effects of the user's own that a diagnosis considers too.
         label: what a comparison calls it; the last words of its name where empty.
         measured: what it was fitted to; the runs of these logs begin where the fit had them begin.
-        initial: what that fit was told of the first samples.
+        initial: what that fit knew of the first samples.
     """
 
     base: Compiled
