@@ -154,7 +154,7 @@ class Diagnosis(Shown):
 
     @property
     def steps(self) -> Table:
-        """The error, model by model: rms residual over noise on logs fitted, used to choose, and never seen."""
+        """The error, model by model: rms residual over noise on logs fitted, used to choose, and held out."""
         from pysim.present.diagnosis.words import step_name
         from pysim.present.notes import USES
 

@@ -207,7 +207,7 @@ class ErrorStep:
 
     Args:
         step: "prior", "refit", or the effects that came in, joined by " + ".
-        fit, validate, test: rms residual over the noise floor of logs fitted, used to choose, and never seen; None
+        fit, validate, test: rms residual over the noise floor of logs fitted, used to choose, and held out; None
             where there is no such log.
         criteria: worst value of each criterion of thesis Tables 1.3 and 1.4, by symbol.
         passes: whether all of these are within their limits.

@@ -84,7 +84,7 @@ def fit(
         effort: how many starts; log and resume.
         progress: called after every point; what it raises ends the fit, which can be resumed from its log.
     Returns:
-        the best of all searches. Records held out are compared, never fitted.
+        the best of all searches. The other records are compared, never fitted.
     Raises:
         BadInput: nothing free, nothing to fit for this objective, an optimiser that cannot minimise it, a model that
             could not be simulated at any start, or the log of another fit to resume.

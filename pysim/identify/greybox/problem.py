@@ -35,7 +35,7 @@ class Problem:
     Args:
         model: left unchanged.
         space: free, tied and fixed parameters.
-        observations: measurements to fit and to hold out.
+        observations: measurements, those too that are not fitted.
         floors: least level of each channel.
         notes: what was assumed on the way.
         settings: what residuals are judged by.

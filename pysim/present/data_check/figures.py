@@ -10,7 +10,7 @@ import numpy as np
 
 from pysim.identify.data_check import DataCheck
 from pysim.io import shown_unit
-from pysim.present.notes import USES
+from pysim.present.notes import NOT_FITTED
 from pysim.present.render import Picture
 from pysim.present.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, frequency_axis, legend_above, panels
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
@@ -54,7 +54,7 @@ def _test(record: MeasuredRecord) -> _Test:
 
 
 def coverage_figure(dataset: Dataset) -> Figure:
-    """A row per input, offset and amplitude, a dot per stepped sine over its frequency; hollow: held out.
+    """A row per input, offset and amplitude, a dot per stepped sine over its frequency; hollow: not fitted.
 
     Raises:
         BadInput: no stepped sine among the logs.
@@ -65,7 +65,7 @@ def coverage_figure(dataset: Dataset) -> Figure:
     tests = list(dict.fromkeys(_test(record) for record in sines))
     figure, ((axes,),) = panels(7.5, 1.3 + 0.28 * max(len(tests), 4))  # at least as high as the label
     handles: dict[str, Any] = {}
-    for held_out, label, face in ((False, "to fit", COLOURS[0]), (True, USES["validate"], "white")):
+    for held_out, label, face in ((False, "to fit", COLOURS[0]), (True, NOT_FITTED, "white")):
         chosen = [record for record in sines if record.held_out == held_out]
         rows = [tests.index(_test(record)) for record in chosen]
         frequencies = np.array([record.frequency for record in chosen])

@@ -9,6 +9,7 @@ import pysim
 from pysim.nouns.diagnosis import Diagnosis
 from pysim.nouns.fit import Fit
 from pysim.nouns.model import Model
+from pysim.present.notes import USES
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
 from tests.pysim.nouns.conftest import FRICTION, TRUE
 
@@ -35,7 +36,7 @@ def test_numbers_are_those_of_their_definitions(mass: Model, data: Dataset) -> N
         assert row["fit %"] == pytest.approx(100 * (1 - np.linalg.norm(away) / size), abs=0.01)
         assert row["rms"] == pytest.approx(1e3 * np.sqrt(np.mean(away**2)), rel=1e-3)
         assert row["x noise"] == pytest.approx(row["rms"], rel=1e-6)  # the noise is 1 mm
-        assert (row["log"], row["use"]) == (log.source, log.use)
+        assert (row["log"], row["use"]) == (log.source, USES[log.use])
 
 
 def test_several_models_are_rows_of_one_table(mass: Model, data: Dataset, fitted: Fit) -> None:
@@ -73,7 +74,7 @@ def test_where_it_is_worst_comes_first(mass: Model, data: Dataset) -> None:
 
 def test_a_log_of_no_use_for_a_fit_is_compared_all_the_same(mass: Model, data: Dataset) -> None:
     only = replace(data, records=tuple(replace(one, use="test") for one in data.records))
-    assert pysim.compare(truth(mass), only).table["use"] == ("test", "test")
+    assert pysim.compare(truth(mass), only).table["use"] == ("held out", "held out")
 
 
 def test_a_displaced_start_is_estimated_from_the_log_itself(mass: Model) -> None:
@@ -98,4 +99,4 @@ def test_what_is_no_model_or_no_data_is_refused(mass: Model, data: Dataset) -> N
 def test_comparison_diagnosis_and_fit_say_the_same(mass: Model, data: Dataset, why: Diagnosis) -> None:
     """One number for one question."""
     by_compare = pysim.compare(why.model, data).table["x noise"]
-    assert by_compare == pytest.approx([why.steps["fitted"][-1], why.steps["held out"][-1]], rel=1e-3)
+    assert by_compare == pytest.approx([why.steps["fitted"][-1], why.steps["used to choose"][-1]], rel=1e-3)

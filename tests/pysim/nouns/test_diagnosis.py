@@ -21,7 +21,7 @@ def test_the_effect_is_named_with_its_size(why: Diagnosis) -> None:
     (row,) = list(why.effects)
     assert row["95 % from"] < FRICTION < row["to"]
     assert why.steps["fitted"][-1] == pytest.approx(1.0, abs=0.1)
-    assert why.steps["held out"][1] > 10 * why.steps["held out"][-1]
+    assert why.steps["used to choose"][1] > 10 * why.steps["used to choose"][-1]
     assert why.candidates["effects"][0] == "toy.friction"
 
 

@@ -106,7 +106,7 @@ def test_a_mass_that_is_let_go_is_fitted_and_its_held_out_log_too(mass: Model) -
             assert found.table.row(name)["start"] == 0.0
     assert found.table.row("x@a.txt")["s.d."] < 2e-4 / 4  # of a single sample; 600 know it better
     assert "x@a.txt" in repr(found)
-    held = [row for row in found.signals if row["use"] == "validate"]
+    held = [row for row in found.signals if row["use"] == "used to choose"]
     assert held[0]["fit %"] > 95
     assert not any("rest" in text for text in found.warnings)
     at_rest = pysim.fit(free, data, initial="rest")
