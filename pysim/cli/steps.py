@@ -132,8 +132,7 @@ def end_step(given: Given, result: Diagnosed) -> None:
 
 def _conditions(given: Given, parts: SessionParts) -> dict[str, str]:
     """What the command line knows of how to repeat it."""
-    found = {
+    return {
         "data set": f"{parts.dataset.name}, {len(parts.dataset.records)} records, {given.typed['dataset']}",
         "command": given.repeated,
     }
-    return {**found, "seed": str(given.seed)} if "seed" in given else found

@@ -381,7 +381,7 @@ class Diagnosis:
         next_test: where two answers are left that another test would tell apart.
         estimates: parameters of the final model.
         notes: what a reader must know.
-        conditions: what it takes to repeat it: model, data, seed, solver, versions.
+        conditions: what it takes to repeat it: model, data, solver, versions.
         seconds: wall time by stage.
     """
 
