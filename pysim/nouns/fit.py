@@ -158,8 +158,8 @@ class Fit(Shown):
     def model(self) -> Model:
         """The model at the estimates, which simulates the logs as they are shown here; it stays as free as it was."""
         values = {name: value for name, value in self.found.values.items() if "@" not in name}
-        known = {"label": f"{self.begun.shown} fitted", "measured": self.dataset, "initial": self.initial}
-        return replace(self.begun, values={**self.begun.values, **values}, **known)
+        fitted = replace(self.begun, values={**self.begun.values, **values}, label=f"{self.begun.shown} fitted")
+        return replace(fitted, measured=self.dataset, initial=self.initial)
 
     @property
     def residuals(self) -> Mapping[str, Run]:

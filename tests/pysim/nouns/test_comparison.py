@@ -100,3 +100,20 @@ def test_comparison_diagnosis_and_fit_say_the_same(mass: Model, data: Dataset, w
     """One number for one question."""
     by_compare = pysim.compare(why.model, data).table["x noise"]
     assert by_compare == pytest.approx([why.steps["fitted"][-1], why.steps["used to choose"][-1]], rel=1e-3)
+
+
+def test_noise_that_is_not_specified_is_one_number(mass: Model, data: Dataset) -> None:
+    """It is read off the logs alone, so that a poor model counts as poor in a fit as in a comparison."""
+    bare = replace(data, signals=tuple(replace(one, noise=None) for one in data.signals))
+    found = pysim.fit(mass, bare)
+    beside = pysim.compare(found.model, mass, bare)
+    sizes = {record.noise for records in (found.found.records, *beside.records.values()) for record in records}
+    (size,) = {one for (one,) in sizes}
+    assert size == pytest.approx(1e-3, rel=0.06)  # of the sensor; 240 ordinates in the lowest band and more
+    told = [note.values["value"] for note in (*found.found.notes, *beside.notes) if "value" in note.values]
+    assert told
+    assert set(told) == {size}
+    assert found.signals["x noise"] == pytest.approx(beside.table["x noise"][:2], rel=1e-3)
+    why = pysim.diagnose(found, effects=["toy.friction", "toy.bias"])
+    assert why.steps["fitted"][1] == pytest.approx(found.signals["x noise"][0], rel=0.1)  # the least of its models'
+    assert why.steps["fitted"][-1] == pytest.approx(1.0, abs=0.06)
