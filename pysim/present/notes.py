@@ -44,7 +44,10 @@ _WORDS = {
         '{record} does not begin at rest: estimate its initial state (initial = "estimate"), or cut the log where the '
         "plant still stands."
     ),
-    NoteCode.USED_TO_CHOOSE: "{records}: these logs chose between models, so their error is optimistic. Hold a log out to have one that did not.",
+    NoteCode.USED_TO_CHOOSE: (
+        "{records}: these logs chose between models, so their error is optimistic. Hold a log out to have one that "
+        "did not."
+    ),
     NoteCode.INTERVAL_CONDITIONAL: "Intervals hold for the chosen model; they ignore that another one may be right.",
     NoteCode.INTERVAL_WIDTHS: (
         "The residuals are not white: the model, or the noise that was specified, is not right. The intervals allow "

@@ -13,8 +13,8 @@ _WORDS: Mapping[FindingCode, str] = {
         "the model has no {signal}, so a fit will refuse it; rename it to one of {known}, or load the log without it"
     ),
     FindingCode.NOT_DRIVEN: (
-        "no signal drives the model's input {signal}, which stays at {value:g} {unit}; name the column that does, or set "
-        "its value: model.set({signal}=...)"
+        "no signal drives the model's input {signal}, which stays at {value:g} {unit}; name the column that does, "
+        "or set its value: model.set({signal}=...)"
     ),
     FindingCode.EMPTY: "{signal} lacks {samples}, the first at {start:.6g} s",
     FindingCode.GAP: "{gaps} of {length:.3g} s after {start:.6g} s",

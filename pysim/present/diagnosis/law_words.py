@@ -32,7 +32,7 @@ def law_kind(law: LearnedLaw) -> str:
 
 
 def law_sentence(law: LearnedLaw) -> str:
-    """What is missing, how much of the misfit it explains, what it looks like, and the error on logs that were used to choose."""
+    """What is missing, how much of the misfit it explains, what it looks like, and what it does to the error."""
     kind = law_kind(law)
     on = "changes with time" if law.argument == "time" else f"depends on {law.argument}"
     if law.factor:
