@@ -180,8 +180,8 @@ class Data(Shown):
 
         Args:
             model: what answers to the inputs: a model with `.simulate(log)`, the run of the only log, or runs by the
-                names of logs. With it, signs, units and columns are looked at too; of a `pysim.model` also whether it has
-                what is measured, and whether its inputs are driven.
+                names of logs. With it, signs, units and columns are looked at too; of a `pysim.model` also whether it
+                has what is measured, and whether its inputs are driven.
         """
         from pysim.identify.data_check import check_dataset
 

@@ -197,7 +197,7 @@ class Start:
 
 @dataclass(frozen=True)
 class Fit:
-    """A model fitted to measurements. It never calls itself a success: read outcome, misfit and the records that were not fitted.
+    """A model fitted to measurements. It never calls itself a success: read outcome, misfit and the other records.
 
     Args:
         model: its name.
