@@ -341,8 +341,8 @@ class Model(Shown):
 
         The run of a log begins where `fit` and `compare` have it begin, so that its curve is the one they show: a log
         that the model was fitted to at the states of that fit, any other at states that are estimated from what it
-        measures, at rest or near it where the data say so. The model's own start values hold where a state was set, where
-        a log measures nothing that the model gives, where `inputs` are given beside it, and without a log.
+        measures, at rest or near it where the data say so. The model's own start values hold where a state was set,
+        where a log measures nothing that the model gives, where `inputs` are given beside it, and without a log.
 
         Args:
             what: end of the run in s, the FMU's own or 1 s by default; or a log, `data["run3"]`, whose columns that are
