@@ -102,6 +102,15 @@ def test_comparison_diagnosis_and_fit_say_the_same(mass: Model, data: Dataset, w
     assert by_compare == pytest.approx([why.steps["fitted"][-1], why.steps["used to choose"][-1]], rel=1e-3)
 
 
+def test_a_log_that_is_held_out_is_not_said_to_be_missing(mass: Model, data: Dataset) -> None:
+    """Nothing looks at it before the verdict, which is no reason to say that every log is fitted."""
+    said = "every record is fitted"
+    for use, lacks in (("test", False), ("fit", True)):
+        records = tuple(one if one.use == "fit" else replace(one, use=use) for one in data.records)
+        why = pysim.diagnose(mass, replace(data, records=records), effects=["toy.friction"], max_effects=0)
+        assert any(said in str(note.values.get("text", "")) for note in why.found.notes) is lacks
+
+
 def test_noise_that_is_not_specified_is_one_number(mass: Model, data: Dataset) -> None:
     """It is read off the logs alone, so that a poor model counts as poor in a fit as in a comparison."""
     bare = replace(data, signals=tuple(replace(one, noise=None) for one in data.signals))
