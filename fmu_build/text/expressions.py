@@ -18,6 +18,14 @@ MOST_ELEMENTS = 100_000  # elements of an array of literals; a file that asks fo
 _PAIRS = ("<=", ">=", "==", "<>")
 
 
+class Misplaced(ValueError):
+    """A word where another one is expected, with its offset in the text."""
+
+    def __init__(self, message: str, at: int) -> None:
+        super().__init__(message)
+        self.at = at
+
+
 @dataclass(frozen=True)
 class Number:
     """A literal; true is 1 and false is 0."""
@@ -53,9 +61,10 @@ def parse(text: str) -> Tree:
     """The tree of an expression.
 
     Raises:
-        ValueError: it is none; says what stands where something else is expected.
+        Misplaced: it is none; says what stands where something else is expected.
+        ValueError: an index that is no number.
     """
-    reader = _Reader(tokenise(text))
+    reader = _Reader(tokenise(text), len(text.rstrip()))
     tree = reader.expression()
     reader.expect("")
     return tree
@@ -115,9 +124,10 @@ def literal(text: str, known: Mapping[str, Value] = MappingProxyType({})) -> Val
 
 
 class _Reader:
-    def __init__(self, tokens: Tokens) -> None:
-        self._words = _joined([token.text for token in tokens])
-        self._tokens, self._at = tokens, 0
+    def __init__(self, tokens: Tokens, end: int) -> None:
+        joined = _joined(tokens)
+        self._words, self._starts = [word for word, _ in joined], [*(start for _, start in joined), end]
+        self._at = 0
 
     def _peek(self) -> str:
         return self._words[self._at] if self._at < len(self._words) else ""
@@ -128,9 +138,14 @@ class _Reader:
         self._at += bool(word) and word in words
         return word if word in words else ""
 
+    def _misplaced(self, wanted: str) -> Misplaced:
+        word, place = self._peek(), self._starts[min(self._at, len(self._starts) - 1)]
+        power = "; a power is written with ^" if self._at and word == "*" == self._words[self._at - 1] else ""
+        return Misplaced(f"{word or 'the end'} stands where {wanted} is expected{power}", place)
+
     def expect(self, word: str) -> None:
         if self._peek() != word:
-            raise ValueError(f"{self._peek() or 'the end'} stands where {word or 'the end'} is expected")
+            raise self._misplaced(word or "the end")
         self._at += 1
 
     def expression(self) -> Tree:
@@ -177,7 +192,7 @@ class _Reader:
         if self._took("{"):
             return Call(ARRAY, self._list("}"))
         if not is_name(word) or word in ("then", "else", "elseif", "and", "or", "not", "if"):
-            raise ValueError(f"{word or 'the end'} stands where a value is expected")
+            raise self._misplaced("a value")
         name = self._name()
         return Call(name, self._list(")")) if self._took("(") else Name(name)
 
@@ -206,14 +221,14 @@ class _Reader:
         return tuple(found)
 
 
-def _joined(words: list[str]) -> list[str]:
-    """Signs of two letters as one word."""
-    found: list[str] = []
-    for word in words:
-        if found and found[-1] + word in _PAIRS:
-            found[-1] += word
+def _joined(tokens: Tokens) -> list[tuple[str, int]]:
+    """Words with their places, signs of two letters as one."""
+    found: list[tuple[str, int]] = []
+    for word, start in tokens:
+        if found and found[-1][0] + word in _PAIRS:
+            found[-1] = found[-1][0] + word, found[-1][1]
         else:
-            found.append(word)
+            found.append((word, start))
     return found
 
 

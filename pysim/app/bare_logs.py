@@ -92,7 +92,7 @@ def _time_unit(columns: Sequence[Mapping[str, Any]]) -> str:
 
 
 def _others(folder: Path, logs: Sequence[Path], kind: str) -> list[dict[str, Any]]:
-    """The last of several is held out."""
+    """The last of several is not fitted."""
     if kind == CHIRP.name:
         raise BadInput("chirps need offset and amplitude; write a dataset.toml (docs/reference/data_set.md)")
     files = [path.relative_to(folder).as_posix() for path in logs]

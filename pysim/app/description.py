@@ -1,4 +1,4 @@
-"""The data set's dataset.toml, edited on the page: signals, units, noise, which records are held out."""
+"""The data set's dataset.toml, edited on the page: signals, units, noise, which records are not fitted."""
 
 from __future__ import annotations
 

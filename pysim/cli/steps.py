@@ -106,7 +106,8 @@ def run_step(
         found = work(progress=progress, checkpoint=checkpoint)
         if log is not None:  # a program that follows must know why it does not end yet
             log(ProgressEvent("writing report and files"))
-    found = whole_answer(found, parts, _conditions(given, parts))
+    asked = f"{parts.dataset.name}, {len(parts.dataset.records)} records, {given.typed['dataset']}"
+    found = whole_answer(found, parts, {"data set": asked, "command": given.repeated})  # what repeats it
     sentence = answer(found) if answer is not None else ""
     given.opened = parts
     return Diagnosed(found, parts.dataset, f"{parts.model_name} against {parts.dataset.name}", question, sentence)
@@ -128,12 +129,3 @@ def end_step(given: Given, result: Diagnosed) -> None:
         write_stages(given.records, result.found.history)
     if given.output:
         (given.output / CHECKPOINT).unlink(missing_ok=True)
-
-
-def _conditions(given: Given, parts: SessionParts) -> dict[str, str]:
-    """What the command line knows of how to repeat it."""
-    found = {
-        "data set": f"{parts.dataset.name}, {len(parts.dataset.records)} records, {given.typed['dataset']}",
-        "command": given.repeated,
-    }
-    return {**found, "seed": str(given.seed)} if "seed" in given else found

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping, Sequence
 
 import numpy as np
 
@@ -54,6 +54,35 @@ def undriven(system: System, experiment: Experiment) -> list[str]:
     """Inputs without a start that no connection and no signal drives."""
     driven = {*system.drivers, *experiment.inputs, *experiment.rates}
     return [name for name, port in system.inputs.items() if name not in driven and port.start is None]
+
+
+def unheard(system: System, recorded: Collection[str]) -> dict[str, list[str]]:
+    """Controller -> its outputs that no connection begins at, and that are not named to be recorded."""
+    heard = {*recorded, *(connection.source for connection in system.connections)}
+    return {
+        part.name: [name for name in (f"{part.name}.{port.name}" for port in part.outputs) if name not in heard]
+        for part in system.members
+        if isinstance(part, Sampled)
+    }
+
+
+def check_heard(system: System, recorded: Collection[str], idle: Sequence[str] = ()) -> None:
+    """Check that each controller has an output that goes somewhere.
+
+    Args:
+        recorded: outputs that were named to be recorded.
+        idle: inputs that nothing drives, for the message.
+    Raises:
+        BadInput: one has none.
+    """
+    for part in system.members:
+        lost = unheard(system, recorded).get(part.name)
+        if lost and len(lost) == len(part.outputs):
+            where = f"one that nothing drives, {', '.join(idle)}" if idle else "an input"
+            raise BadInput(
+                f"system: {', '.join(lost)} goes nowhere, so {part.name} does nothing; connect it to {where}, or name "
+                "it in record, where it is only to be recorded"
+            )
 
 
 def overrides_of(system: System, experiment: Experiment) -> Mapping[str, Mapping[str, float]]:

@@ -8,7 +8,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from pysim.cosim._prepare import undriven
+from pysim.cosim._prepare import check_heard, undriven
 from pysim.cosim._python_class import made, python_class
 from pysim.cosim._rows import row_times
 from pysim.cosim.bond import Bond
@@ -19,6 +19,7 @@ from pysim.cosim.iterated import Iterated
 from pysim.cosim.jacobi import Jacobi
 from pysim.cosim.members import Fmu, Isolated
 from pysim.cosim.order import Order
+from pysim.cosim.plain import Unwired, sampled, wired
 from pysim.cosim.sampled import Sampled
 from pysim.cosim.system import System
 from pysim.io import Section, TomlFile, read_model, read_signal, read_toml
@@ -64,16 +65,20 @@ def read_system_file(path: Path | str, *, stop: float | None = None, step: float
     toml.whole.refuse_unknown(("system", "members", "connections", "bonds", "inputs", "overrides", "run"))
     head = toml.optional_table("system")
     head.refuse_unknown(("name",))
-    members = tuple(_member(name, section, path.parent) for name, section in toml.tables("members").items())
-    connections = _connections(toml, _told(str(path), lambda: System(members)))
-    system = _told(str(path), lambda: System(members, connections, _bonds(toml)))
     run = toml.table("run")
     run.refuse_unknown(_RUN)
     size = run.positive("step") if step is None else step
     if size is None:
         raise BadInput(f"{run.place}: step is missing; write step = and the seconds between two communication points")
+    parts = [_member(name, section, path.parent, size) for name, section in toml.tables("members").items()]
+    wires = toml.rows("connections", "connection") if "connections" in toml.whole.values else ()
+    members = _told(str(path), lambda: wired(parts, [(one.text("from"), one.text("to")) for one in wires]))
+    unwired = _told(str(path), lambda: System(members))
+    connections = tuple(_told(one.place, partial(_connection, one, unwired)) for one in wires)
+    system = _told(str(path), lambda: System(members, connections, _bonds(toml)))
     experiment = _told(run.place, lambda: _experiment(toml, run, system, size, stop))
     _check_driven(path, system, experiment)
+    _told(str(path), lambda: check_heard(system, run.texts("record") if "record" in run.values else ()))
     return SystemFile(
         name=head.text("name", path.stem),
         system=system,
@@ -102,11 +107,13 @@ def _told(place: str, make: Callable[[], Any]) -> Any:
         raise error if told or place in str(error) else BadInput(f"{place}: {error}") from error
 
 
-def _member(name: str, section: Section, folder: Path) -> Any:
+def _member(name: str, section: Section, folder: Path, step: float) -> Any:
     kinds = [key for key in ("fmu", "block", "member") if key in section.values]
     if len(kinds) != 1:
         raise BadInput(f'{section.place}: say what {name} is: fmu = "FILE.fmu", block = "CLASS" or member = "CLASS"')
-    return {"fmu": _fmu, "block": _block, "member": _other}[kinds[0]](name, section, folder)
+    if kinds == ["block"]:
+        return _block(name, section, folder, step)
+    return {"fmu": _fmu, "member": _other}[kinds[0]](name, section, folder)
 
 
 def _fmu(name: str, section: Section, folder: Path) -> Any:
@@ -132,25 +139,20 @@ def _fmu(name: str, section: Section, folder: Path) -> Any:
     return _told(section.place, make)
 
 
-def _block(name: str, section: Section, folder: Path) -> Any:
+def _block(name: str, section: Section, folder: Path, step: float) -> Sampled | Unwired:
+    """A block, or a plain class with `step(t, ...)`; sampled as it says itself, or at each step of the run."""
     section.refuse_unknown(_BLOCK)
     text, settings = section.text("block"), section.inner("settings").values
     block = made(python_class(text, folder, section.place), settings, text, section.place)
-    every = section.number("every")
+    every = section.positive("every") or getattr(block, "dt", None) or step
     delay, hold = section.not_negative("delay") or 0.0, section.integer("hold", 0)
-    return _told(section.place, lambda: Sampled(name, block, every, delay, hold))
+    return _told(section.place, lambda: sampled(name, block, every, delay, hold))
 
 
 def _other(name: str, section: Section, folder: Path) -> Any:
     section.refuse_unknown(_MEMBER)
     text, settings = section.text("member"), section.inner("settings").values
     return made(python_class(text, folder, section.place), {"name": name, **settings}, text, section.place)
-
-
-def _connections(toml: TomlFile, unwired: System) -> tuple[Connection, ...]:
-    """Each checked by itself, so that what is wrong with it is said with its own line."""
-    sections = toml.rows("connections", "connection") if "connections" in toml.whole.values else ()
-    return tuple(_told(section.place, partial(_connection, section, unwired)) for section in sections)
 
 
 def _connection(section: Section, unwired: System) -> Connection:

@@ -19,7 +19,7 @@ def shortcomings(dataset: Dataset, free: Sequence[str], *, at_rest: bool = False
         free: parameters that will be refitted.
         at_rest: whether logs count as begun at rest, whatever they say.
     Returns:
-        notes on what the answer lacks: no record held out, one signal alone, an input that never moves.
+        notes on what the answer lacks: a record that is not fitted, a second signal, an input that moves.
     Raises:
         BadInput: too few samples for the parameters, or no input moves.
     """
@@ -28,12 +28,13 @@ def shortcomings(dataset: Dataset, free: Sequence[str], *, at_rest: bool = False
     if count < FEWEST * len(free):
         raise BadInput(
             f"data set {dataset.name!r} has {count} samples to fit for {len(free)} free parameters; log at least "
-            f"{FEWEST * len(free)}, hold less out, or name fewer parameters with --free"
+            f"{FEWEST * len(free)}, fit more of them, or name fewer parameters with --free"
         )
     notes = list(_still(dataset, fitted, at_rest))
     if not any(record.use != "fit" for record in dataset.records):
         notes.append(
-            'no record is held out (use = "validate"), so nothing tells how far the answer holds for other tests'
+            "every record is fitted, so nothing tells how far the answer holds for other tests; hold one out "
+            '(use = "test")'
         )
     outputs = {name for record in fitted for name in _outputs(record, dataset)}
     if len(outputs) == 1:

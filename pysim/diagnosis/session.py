@@ -141,7 +141,7 @@ def session(
         build_law=build_law,
     )
     checked = given.problems[0]
-    more = [*(Note(NoteCode.OTHER, {"text": text}) for text in shortcomings(read, names)), *checked.notes]
+    more = [*(Note(NoteCode.OTHER, {"text": text}) for text in shortcomings(dataset, names)), *checked.notes]
     found = zip(checked.space.keys, checked.space.lower, checked.space.upper, strict=True)
     open_ = [name for name, lower, upper in found if not (math.isfinite(lower) and math.isfinite(upper))]
     more += [Note(NoteCode.UNBOUNDED, {"parameters": ", ".join(open_)})] if open_ else []

@@ -12,10 +12,11 @@ from typing import Any
 
 import numpy as np
 
-from fmu_build.text.expressions import ARRAY, IF, NEGATE, Call, Name, Number, Tree, evaluate, names_in, parse
+from fmu_build.text.expressions import ARRAY, IF, NEGATE, Call, Misplaced, Name, Number, Tree, evaluate, names_in, parse
 from fmu_build.text.statements import Statement, statements
 from fmu_build.text.tokens import Token, Tokens, depth_change, tokenise, written
 
+_AHEAD = "equation "  # makes the text of a law statements
 _PRE = "pre "  # ahead of a name: its value at the moment before
 _STEEPEST = 20.0  # exponent up to which a power of numbers is one that a law would have
 Equation = tuple[Tree, Tree]
@@ -64,12 +65,13 @@ def read_law(text: str) -> Law:
     """Equations as a class writes them.
 
     Raises:
+        Misplaced: a word where another one is expected, with its offset in the text.
         ValueError: one that cannot be worked out here; names it.
     """
     law = Law()
     try:
-        for statement in statements(tokenise(f"equation {text}")):
-            _take(law, statement, f"equation {text}")
+        for statement in statements(tokenise(_AHEAD + text)):
+            _take(law, statement, _AHEAD + text)
     except RecursionError:
         raise ValueError("the law is nested too deeply; split it into several equations") from None
     return law
@@ -125,7 +127,11 @@ def _bare(tokens: Tokens) -> Tokens:
 
 
 def _tree(tokens: tuple[Token, ...], text: str) -> Tree:
-    return _with_past(parse(written(text, tokens)))
+    try:
+        return _with_past(parse(written(text, tokens)))
+    except Misplaced as error:
+        begin = tokens[0].start if tokens else len(text)
+        raise Misplaced(str(error), begin + error.at - len(_AHEAD)) from None
 
 
 def _with_past(tree: Tree) -> Tree:

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from fmu_build.text import Libraries, class_text
 from fmu_build.text.declarations import Kind
-from fmu_build.text.expressions import Call, Name, Tree, names_in
+from fmu_build.text.expressions import Call, Misplaced, Name, Tree, names_in
 from fmu_build.text.statements import statements
 from fmu_build.text.tokens import tokenise
 from fmu_build.text.write import quoted
@@ -138,6 +138,8 @@ def _equations(name: str, law: str, slot: Slot) -> Iterator[_Equation]:
         written = text[statement.start : statement.end].rstrip("; \n")
         try:
             read = read_law(written)
+        except Misplaced as error:
+            raise _refusal(name, law, max(statement.start + error.at - len(ahead), 0), f"{error}") from error
         except ValueError as error:
             raise _refusal(name, law, start, f"{error}") from error
         if not read.values:

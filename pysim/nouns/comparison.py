@@ -131,7 +131,7 @@ class Comparison(Shown):
         """One log, measured and as each model has it, with what is left.
 
         Args:
-            log: its name; by default a log that was held out, where the first model fails most.
+            log: its name; by default one that is not fitted, where the first model fails most.
             interactive: a Plotly figure in place of Matplotlib's.
         """
         from pysim.present.charts import as_plotly
@@ -161,13 +161,14 @@ class Comparison(Shown):
 
 def _rows(model: str, one: RecordFit) -> list[tuple[tuple[Any, ...], RecordFit]]:
     from pysim.io import shown_unit
+    from pysim.present.notes import USES
 
     away = np.sqrt(np.mean((one.measured.values - one.simulated.values) ** 2, axis=0))
     rows = []
     for j, name in enumerate(one.measured.names):
         unit, factor = shown_unit(one.measured.units[j])
         numbers = (one.fit_percent[name], float(factor * away[j]), unit, one.rms[name])
-        rows.append(((model, one.source, name, one.use, *numbers), one))
+        rows.append(((model, one.source, name, USES[one.use], *numbers), one))
     return rows
 
 

@@ -9,11 +9,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from pysim.nouns.common import Input, signal_of
-from pysim.nouns.controller import PlainBlock, step_arguments
 from pysim.nouns.model import Model, model
 from pysim.nouns.run import Run
 from pysim.present.progress import Progress, showing
-from pysim.types import BadInput, Experiment, ProgressEvent
+from pysim.types import BadInput, Experiment, Note, NoteCode, ProgressEvent
 from pysim.types import Model as Compiled
 
 if TYPE_CHECKING:
@@ -21,7 +20,6 @@ if TYPE_CHECKING:
     from pysim.cosim.system import Part
 
 _SAID = 100  # times that a run says how far it is, at most
-_BLOCK = ("inputs", "outputs", "step", "state", "restore")
 
 
 def cosimulate(
@@ -53,6 +51,8 @@ def cosimulate(
     """
     from pysim.cosim import Connection, Sampled, System
     from pysim.cosim import cosimulate as stepped
+    from pysim.cosim._prepare import check_heard, unheard
+    from pysim.cosim.plain import PlainBlock
 
     if not dt > 0 or not stop >= dt:
         raise BadInput(
@@ -65,6 +65,8 @@ def cosimulate(
     parts = _parts(members, pairs, targets, dt)
     plain = [one.block for one in parts if isinstance(one, Sampled) and isinstance(one.block, PlainBlock)]
     system = System(tuple(parts), tuple(Connection(*pair, *_conversion(parts, *pair)) for pair in pairs))
+    idle = _idle(parts, targets)
+    check_heard(system, record, idle)
     names = tuple(record) or (*system.outputs, *driven)
     times = np.asarray(dt * np.arange(round(stop / dt) + 1), dtype=np.float64)
     every = -(-times.size // _SAID)
@@ -80,47 +82,41 @@ def cosimulate(
         finally:
             for block in plain:
                 block.end()
-    return Run(done, " + ".join(members))
+    lost = [output for own in unheard(system, record).values() for output in own]
+    notes: tuple[Note, ...] = ()
+    if idle and (lost := [output for own in unheard(system, record).values() for output in own]):
+        told = {"outputs": ", ".join(lost), "inputs": ", ".join(idle), "output": lost[0], "input": idle[0]}
+        notes = (Note(NoteCode.NOT_WIRED, told),)
+    return Run(done, " + ".join(members), notes)
+
+
+def _idle(parts: Sequence[Part], targets: set[str]) -> list[str]:
+    """Inputs of FMUs that nothing drives, but for rates, which come with what they are the rate of."""
+    from pysim.cosim.members import Fmu
+
+    found = []
+    for part in parts:
+        if isinstance(part, Fmu):
+            names = [port.name for port in part.inputs if not port.name.startswith("probe.")]
+            rates = part.model.rate_inputs(names)
+            found += [f"{part.name}.{n}" for n in names if n not in rates and f"{part.name}.{n}" not in targets]
+    return found
 
 
 def _parts(members: Mapping[str, Any], pairs: Sequence[tuple[str, str]], targets: set[str], dt: float) -> list[Part]:
-    """The members, FMUs first, as those know the units of what is wired to them."""
+    """The members, of which a plain controller has its ports and units from the wires."""
     from pysim.cosim import Sampled
+    from pysim.cosim.plain import sampled, wired
 
-    found: dict[str, Part] = {}
-    plain: dict[str, Any] = {}
+    found: list[Any] = []
     for name, one in members.items():
         if isinstance(one, str | Path | Model | Compiled):
-            found[name] = _fmu(name, one, targets)
+            found.append(_fmu(name, one, targets))
         elif isinstance(one, Sampled) or hasattr(one, "can_rollback"):
-            found[name] = one
-        elif all(hasattr(one, attribute) for attribute in _BLOCK):
-            found[name] = Sampled(name, one, getattr(one, "dt", None) or dt)
+            found.append(one)
         else:
-            step_arguments(name, one)
-            plain[name] = one
-    units = {f"{n}.{p.name}": p.unit for n, part in found.items() for p in (*part.inputs, *part.outputs)}
-    for _ in plain:  # a unit goes from wire to wire, through as many controllers as there are
-        for source, target in pairs:
-            known = units.get(source) or units.get(target)
-            if known:
-                units.setdefault(source, known)
-                units.setdefault(target, known)
-    for name, one in plain.items():
-        own = {port.partition(".")[2]: unit for port, unit in units.items() if port.partition(".")[0] == name}
-        block = PlainBlock(name, one, _outputs(name, one, pairs), own)
-        block.begin()
-        found[name] = Sampled(name, block, block.dt or dt)
-    return [found[name] for name in members]
-
-
-def _outputs(name: str, one: Any, pairs: Sequence[tuple[str, str]]) -> list[str]:
-    """Names of what a controller returns: those it lists itself, else those that wires begin with."""
-    listed = getattr(one, "outputs", None)
-    if listed:
-        return [str(each) for each in listed]
-    wired = [source.partition(".")[2] for source, _ in pairs if source.partition(".")[0] == name]
-    return list(dict.fromkeys(wired)) or ["u"]
+            found.append(sampled(name, one, getattr(one, "dt", None) or dt))
+    return list(wired(found, pairs))
 
 
 def _fmu(name: str, one: Any, targets: set[str]) -> Fmu:

@@ -36,6 +36,7 @@ from pysim.io.prepare import (
 )
 from pysim.io.write_dataset import write_dataset
 from pysim.nouns.data_check import Check
+from pysim.nouns.model import Model
 from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
 
@@ -179,17 +180,23 @@ class Data(Shown):
 
         Args:
             model: what answers to the inputs: a model with `.simulate(log)`, the run of the only log, or runs by the
-                names of logs. With it, signs, units and columns are looked at too.
+                names of logs. With it, signs, units and columns are looked at too; of a `pysim.model` also whether it
+                has what is measured, and whether its inputs are driven.
         """
         from pysim.identify.data_check import check_dataset
 
-        return Check(check_dataset(self.now, self._answers(model)))
+        own = (model.compiled, tuple(model.values)) if isinstance(model, Model) else (None, ())
+        return Check(check_dataset(self.now, self._answers(model), *own))
 
     def _answers(self, model: Any) -> dict[str, Record]:
         """Source of a log -> the model's answer to it."""
         logs = [record for record in self.now.logs() if not record.held_out] or list(self.now.logs())
         if model is None:
             return {}
+        if isinstance(model, Model):  # from its own start, as states estimated from a wrong column are wrong too
+            inputs = set(model.inputs["name"])
+            able = [one for one in map(self._for_model, logs) if inputs & {*one.data.names}]  # type: ignore[union-attr]
+            return {one.source: model.simulate(one, initial={}).record for one in able}
         if hasattr(model, "simulate"):
             return {record.source: _record(model.simulate(self._for_model(record))) for record in logs}
         if isinstance(model, Mapping):

@@ -60,7 +60,7 @@ def diagnose(
     parts = _parts(model, dataset, begin, effects)
     work = partial(searched, checkpoint=None if checkpoint is None else Path(checkpoint))
     found = _asked(parts, work, progress, f"diagnosing {model.name}", Settings(max_effects=max_effects))
-    return Diagnosis(found, model, parts)
+    return Diagnosis(found, replace(model, measured=dataset, initial=begin), parts)
 
 
 def locate(
@@ -154,7 +154,7 @@ class Diagnosis(Shown):
 
     @property
     def steps(self) -> Table:
-        """The error, model by model: rms residual over noise on logs fitted, used to choose, and never seen."""
+        """The error, model by model: rms residual over noise on logs fitted, used to choose, and held out."""
         from pysim.present.diagnosis.words import step_name
         from pysim.present.notes import USES
 
@@ -191,7 +191,7 @@ class Diagnosis(Shown):
 
     @property
     def model(self) -> Model:
-        """The model with what was found, refitted."""
+        """The model with what was found, refitted; it simulates the logs as the diagnosis began them."""
         effects = [one for one in self.found.effects if one.effect.class_name]
         laws = {law.slot: law for law in self.missing[: len(self.found.learned)] if law.found.modelica}
         inner = {one.effect.slot: one.effect for one in effects if one.effect.slot in laws}  # part of the law's class

@@ -44,7 +44,7 @@ def fit(
         model: its `free_names` are changed, from their values on.
         data: what `pysim.load` gives.
         initial: of the model at each log's first sample: "rest", "estimate" from the log, or state -> value; None as
-            the data say, and near rest where they say nothing. It holds for logs that were held out too.
+            the data say, and near rest where they say nothing. It holds for logs that are not fitted too.
         starts: more searches, from starts drawn between the bounds.
         seed: of the draw.
         outputs: columns to compare; all that are measured by default.
@@ -156,9 +156,10 @@ class Fit(Shown):
 
     @property
     def model(self) -> Model:
-        """The model at the estimates; its parameters stay as free as they were."""
+        """The model at the estimates, which simulates the logs as they are shown here; it stays as free as it was."""
         values = {name: value for name, value in self.found.values.items() if "@" not in name}
-        return replace(self.begun, values={**self.begun.values, **values}, label=f"{self.begun.shown} fitted")
+        fitted = replace(self.begun, values={**self.begun.values, **values}, label=f"{self.begun.shown} fitted")
+        return replace(fitted, measured=self.dataset, initial=self.initial)
 
     @property
     def residuals(self) -> Mapping[str, Run]:

@@ -21,6 +21,7 @@ from pysim.types import (
     Effect,
     Experiment,
     MeasuredRecord,
+    MeasuredSignal,
     Note,
     Record,
     RecordFit,
@@ -33,6 +34,7 @@ from pysim.types._frozen import FrozenMapping
 
 if TYPE_CHECKING:
     from pysim.effects import Slot
+    from pysim.identify.greybox import Problem
     from pysim.workflow import Initial, ModelInside, Variants
 
 _ROWS = 500  # of a run, where nothing says how many
@@ -102,6 +104,8 @@ class Model(Shown):
         effects_in: that were added.
         candidates: effects of the user's own that a diagnosis considers too.
         label: what a comparison calls it; the last words of its name where empty.
+        measured: what it was fitted to; the runs of these logs begin where the fit had them begin.
+        initial: what that fit knew of the first samples.
     """
 
     base: Compiled
@@ -114,6 +118,8 @@ class Model(Shown):
     effects_in: tuple[Effect, ...] = ()
     candidates: tuple[Effect, ...] = ()
     label: str = ""
+    measured: Dataset | None = field(default=None, compare=False)
+    initial: Initial = field(default=None, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "values", FrozenMapping(self.values))
@@ -328,9 +334,15 @@ class Model(Shown):
         dt: float | None = None,
         record: Sequence[str] = (),
         check: bool = True,
+        initial: Initial = None,
         **inputs: Input,
     ) -> Run:
         """Run it.
+
+        The run of a log begins where `fit` and `compare` have it begin, so that its curve is the one they show: a log
+        that the model was fitted to at the states of that fit, any other at states that are estimated from what it
+        measures, at rest or near it where the data say so. The model's own start values hold where a state was set,
+        where a log measures nothing that the model gives, where `inputs` are given beside it, and without a log.
 
         Args:
             what: end of the run in s, the FMU's own or 1 s by default; or a log, `data["run3"]`, whose columns that are
@@ -338,6 +350,7 @@ class Model(Shown):
             dt: s between two rows; a 500th of the run by default, and of a log its own.
             record: variables; all outputs by default, else the states.
             check: False gives back what a run that failed has reached, in place of an error.
+            initial: of a log: "rest", "estimate", or state -> value, `{}` for the model's own start; None as above.
             inputs: input = number, pairs (s, value), a row of values, a pandas column, or a function of time.
         Raises:
             BadInput: an unknown name, or an input that is no signal.
@@ -346,9 +359,14 @@ class Model(Shown):
         from pysim.simulate import Rodas, simulate
         from pysim.workflow import recorded_of
 
-        model = self.compiled
+        model, names = self.compiled, recorded_of(self.compiled, record)
         drives: dict[str, Signal] = {}
         if isinstance(what, MeasuredRecord):
+            begun = None if inputs else self._begun(what, self.initial if initial is None else initial)
+            if begun is not None:
+                assert isinstance(what.data, Record)
+                experiment = replace(begun, times=_times(what.data, dt), record=names)
+                return Run(simulate(model, experiment, solver=Rodas(), check=check), self.name)
             times, start, drives = self._log(what, dt)
         else:
             stop = float(what if what is not None else model.stop_time or 1.0)
@@ -359,23 +377,53 @@ class Model(Shown):
             times, start = np.linspace(0.0, stop, max(2, round(stop / (dt or stop / _ROWS)) + 1)), 0.0
         for name, value in inputs.items():
             drives[model[name].name] = signal_of(value, float(times[-1]), name)
-        experiment = Experiment(
-            times, recorded_of(model, record), drives, self.values, start, rates=model.rate_inputs(drives)
-        )
+        experiment = Experiment(times, names, drives, self.values, start, rates=model.rate_inputs(drives))
         return Run(simulate(model, experiment, solver=Rodas(), check=check), self.name)
+
+    def _begun(self, log: MeasuredRecord, initial: Initial) -> Experiment | None:
+        """The run of a log as `compare` has it; None where it measures nothing that the model gives."""
+        from pysim.identify.greybox import Simulation
+        from pysim.identify.greybox.comparison import compared
+
+        dataset, states = self._holding(log), self.compiled.abilities.states
+        if dataset is None or initial == {} or any(name in states for name in self.values):
+            return None
+        problem, here = self._problem(dataset, initial), np.zeros(0)
+        for one in problem.observations:
+            for run in one.runs:
+                if run.record == log.source:
+                    found = compared(replace(problem, observations=(one,)), here, Simulation().finer(_FINE))
+                    offset = None if run.orbit else found.states.get(id(run))
+                    return run.over_time(problem.space.overrides(here, run.record), offset)
+        return None
+
+    def _holding(self, log: MeasuredRecord) -> Dataset | None:
+        """The data set that the log is of, or one of it alone; None where only its inputs are in the model."""
+        data = log.data
+        if not isinstance(data, Record):
+            return None
+        for one in self.measured.logs() if self.measured else ():
+            assert isinstance(one.data, Record)
+            if one.source == log.source and np.array_equal(one.data.values, data.values, equal_nan=True):
+                return self.measured
+        own = {v.name: v for v in self.compiled.variables}
+        columns = [(name, unit) for name, unit in zip(data.names, data.units, strict=True) if name in own]
+        roles = {name: "input" if own[name].causality == "input" else "output" for name, _ in columns}
+        if set(roles.values()) != {"input", "output"}:
+            return None
+        signals = tuple(MeasuredSignal(name, roles[name], unit, name, name) for name, unit in columns)
+        kept = replace(log, use="fit", data=replace(
+            data, names=tuple(roles), units=tuple(unit for _, unit in columns),
+            values=data.values[:, [data.names.index(name) for name in roles]],
+        ))  # fmt: skip
+        return Dataset(log.source, "", self.name, signals, (kept,))
 
     def beside(self, dataset: Dataset, initial: Initial = None) -> tuple[tuple[RecordFit, ...], tuple[Note, ...]]:
         """Every log beside the model as it is, with the use that the data set says; and what was assumed."""
         from pysim.identify.greybox import Simulation
         from pysim.identify.greybox.comparison import compared
-        from pysim.workflow import fit_problem, reference_of
 
-        uses = [record.use for record in dataset.logs()]
-        all_fit = replace(dataset, records=tuple(replace(record, use="fit") for record in dataset.records))
-        problem = fit_problem(
-            self.compiled, [all_fit], values=self.values, nothing_free=True, initial=initial,
-            reference_hz=reference_of(dataset.responses()),
-        )  # fmt: skip
+        uses, problem = [record.use for record in dataset.logs()], self._problem(dataset, initial)
         found = compared(problem, np.zeros(0), Simulation().finer(_FINE))  # one run each: no error of it may count
         if not found.records and not found.responses:
             raise BadInput(
@@ -383,6 +431,16 @@ class Model(Shown):
             )
         records = (replace(record, use=uses[record.index]) for record in found.records)
         return tuple(records), (*problem.notes, *found.notes)
+
+    def _problem(self, dataset: Dataset, initial: Initial) -> Problem:
+        """The model as it is beside every log."""
+        from pysim.workflow import fit_problem, reference_of
+
+        all_fit = replace(dataset, records=tuple(replace(record, use="fit") for record in dataset.records))
+        return fit_problem(
+            self.compiled, [all_fit], values=self.values, nothing_free=True, initial=initial,
+            reference_hz=reference_of(dataset.responses()),
+        )  # fmt: skip
 
     def explore(self, data: Measured, log: str = "") -> Any:
         """Sliders for what is free, in a notebook, and one log beside the model at what they say.
@@ -449,9 +507,7 @@ class Model(Shown):
             if scale is None:
                 raise BadInput(f"simulate: {name} of {log.source} is in {unit}, the input in {wanted[name].unit}")
             drives[name] = logged_command(log, name).times(scale[0]).plus(Signal.constant(scale[1]))
-        start, stop = float(data.time[0]), float(data.time[-1])
-        times = data.time if dt is None else np.linspace(start, stop, max(2, round((stop - start) / dt) + 1))
-        return times, start, drives
+        return _times(data, dt), float(data.time[0]), drives
 
     def _taking(self, effects: Iterable[str | OwnEffect]) -> tuple[Model, list[Effect]]:
         """The model whose libraries hold these effects, and the effects as its slots take them."""
@@ -522,6 +578,12 @@ class Model(Shown):
     def to_dataframe(self) -> Any:
         """Its parameters, as a pandas DataFrame."""
         return self.parameters.to_dataframe()
+
+
+def _times(data: Record, dt: float | None) -> Any:
+    """Of the rows of a log's run, s."""
+    start, stop = float(data.time[0]), float(data.time[-1])
+    return data.time if dt is None else np.linspace(start, stop, max(2, round((stop - start) / dt) + 1))
 
 
 def _some(texts: Sequence[str]) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.nouns.table import Shown, Table, pandas
-from pysim.types import Outcome, Record
+from pysim.types import Note, Outcome, Record
 
 
 @dataclass(frozen=True, repr=False)
@@ -20,10 +20,23 @@ class Run(Shown):
     Args:
         record: its columns, in their units.
         name: of the model.
+        notes: what may not be as it was meant.
     """
 
     record: Record
     name: str = ""
+    notes: tuple[Note, ...] = ()
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """What may not be as it was meant, in sentences."""
+        from pysim.present.notes import words
+
+        return tuple(words(note) for note in self.notes)
+
+    @property
+    def _alarms(self) -> tuple[str, ...]:
+        return self.warnings
 
     def __getitem__(self, name: str) -> NDArray[np.float64]:
         """A column, (n_t,) in its unit."""

@@ -18,6 +18,10 @@ _WORDS = {
         "degrees were assumed for each point (thesis Eq. 2.25)."
     ),
     NoteCode.NOT_COMPARED: "{record} was left out: none of its columns is compared.",
+    NoteCode.NOT_WIRED: (
+        "{outputs} goes nowhere and nothing drives {inputs}, which stays at its start value: add a wire "
+        "'{output}': '{input}', or give {input} a value under inputs."
+    ),
     NoteCode.NOT_SETTLED: (
         "{record}{more}: the first period is unlike those after it. Either the plant had not settled, or the noise has "
         "a long memory. The log is compared sample by sample from its start."
@@ -40,7 +44,10 @@ _WORDS = {
         '{record} does not begin at rest: estimate its initial state (initial = "estimate"), or cut the log where the '
         "plant still stands."
     ),
-    NoteCode.USED_TO_CHOOSE: "{records}: these validation data also chose between models; their error is optimistic.",
+    NoteCode.USED_TO_CHOOSE: (
+        "{records}: these logs chose between models, so their error is optimistic. Hold a log out to have one that "
+        "did not."
+    ),
     NoteCode.INTERVAL_CONDITIONAL: "Intervals hold for the chosen model; they ignore that another one may be right.",
     NoteCode.INTERVAL_WIDTHS: (
         "The residuals are not white: the model, or the noise that was specified, is not right. The intervals allow "
@@ -135,7 +142,9 @@ _WORDS = {
 }
 
 
-USES = {"fit": "fitted", "validate": "held out", "test": "unseen"}  # use of a log -> what a model did with it
+# Use of a log -> what was done with it. Held out is what nothing was fitted to, and nothing chosen with.
+USES = {"fit": "fitted", "validate": "used to choose", "test": "held out"}
+NOT_FITTED = "not fitted"  # either of the last two
 
 
 def estimate_words(estimate: Estimate, *, held: bool = False) -> str:

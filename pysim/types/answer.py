@@ -207,7 +207,7 @@ class ErrorStep:
 
     Args:
         step: "prior", "refit", or the effects that came in, joined by " + ".
-        fit, validate, test: rms residual over the noise floor of logs fitted, used to choose, and never seen; None
+        fit, validate, test: rms residual over the noise floor of logs fitted, used to choose, and held out; None
             where there is no such log.
         criteria: worst value of each criterion of thesis Tables 1.3 and 1.4, by symbol.
         passes: whether all of these are within their limits.
@@ -381,7 +381,7 @@ class Diagnosis:
         next_test: where two answers are left that another test would tell apart.
         estimates: parameters of the final model.
         notes: what a reader must know.
-        conditions: what it takes to repeat it: model, data, seed, solver, versions.
+        conditions: what it takes to repeat it: model, data, solver, versions.
         seconds: wall time by stage.
     """
 

@@ -44,7 +44,7 @@ class MeasuredSignal:
         return math.hypot(self.noise or 0.0, (self.resolution or 0.0) / math.sqrt(12))
 
 
-USES = ("fit", "validate", "test")  # fitted; may choose between models; is only reported
+USES = ("fit", "validate", "test")  # fitted; used to choose between models; held out, which is only reported
 INITIAL = ("rest", "estimate")  # what a record may say of the plant at its first sample
 
 

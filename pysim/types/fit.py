@@ -197,7 +197,7 @@ class Start:
 
 @dataclass(frozen=True)
 class Fit:
-    """A model fitted to measurements. It never calls itself a success: read outcome, misfit and held-out records.
+    """A model fitted to measurements. It never calls itself a success: read outcome, misfit and the other records.
 
     Args:
         model: its name.
@@ -207,7 +207,7 @@ class Fit:
         values: every parameter that was free, tied or fixed -> value; what `overrides` of an experiment takes.
         undetermined: directions the data do not determine, exact ones first.
         combinations: what of those directions is determined after all.
-        records: logs beside the fitted model, those held out too.
+        records: logs beside the fitted model, those too that were not fitted.
         responses: frequency responses, from tables or from stepped sines.
         cost: of the objective at the estimates; start_cost at the start. Nats where squares are summed up, and then of
             any sign, so that only differences count.

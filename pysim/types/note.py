@@ -15,6 +15,9 @@ class NoteCode(Enum):
     NOISE_ESTIMATED = "noise_estimated"  # dataset, signal, value, unit: not specified, estimated from the data
     NOISE_ASSUMED = "noise_assumed"  # dataset, magnitude (dB), phase (deg): of tables that state none
     NOT_COMPARED = "not_compared"  # record: no column of it is
+    NOT_WIRED = (
+        "not_wired"  # outputs of controllers that go nowhere, inputs that nothing drives; output, input: the first
+    )
     NOT_SETTLED = "not_settled"  # record, others (how many more): its first period is unlike those after it
     NOT_SIMULATED = "not_simulated"  # record, reason (what the run said): the model could not be run through it
     NOT_TRIED = "not_tried"  # effect, reason (a code): it has no slot, does not compile, disturbs the others
@@ -24,7 +27,7 @@ class NoteCode(Enum):
     INTERCHANGEABLE = "interchangeable"  # parameter -> exponent, and "@spread": the data do not tell them apart
     CORRELATED = "correlated"  # first, second, correlation: two estimates that are hardly told apart
     NOT_AT_REST = "not_at_rest"  # record: a log that does not begin at rest, as it was taken
-    USED_TO_CHOOSE = "used_to_choose"  # records that are reported as unseen also chose between models
+    USED_TO_CHOOSE = "used_to_choose"  # records: chose between models, and no others are held out
     INTERVAL_CONDITIONAL = "interval_conditional"  # intervals hold for the model that was chosen only
     TABLES_LEFT_OUT = "tables_left_out"  # count: of tables of responses, beside logs over time
     HELD_AS_SET = "held_as_set"  # parameters: set, so not refitted, though the model gives them bounds

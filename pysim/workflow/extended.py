@@ -113,7 +113,7 @@ def _limits(found: Diagnosis, dataset: Dataset) -> list[str]:
     """What the data did not show."""
     texts = [f"beyond what was excited: {_excited(dataset)}"]
     if not any(record.held_out for record in dataset.records):
-        texts.append("for other excitation without a test: no record was held out")
+        texts.append("for other excitation without a test: every record was fitted")
     last = found.history[-1] if found.history else None
     if last is not None and not last.passes:
         texts.append(f"as a match by the thesis' limits: {limits_sentence(last)}".removesuffix("."))

@@ -1,4 +1,4 @@
-"""Page 1: the data set and the model: what was read, what was refused and why, signals, noise, what is held out."""
+"""Page 1: the data set and the model: what was read, what was refused and why, signals, noise, what is not fitted."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from pysim.app.records import MOST, measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted
 from pysim.present.data_check import sentence
-from pysim.present.notes import USES
+from pysim.present.notes import NOT_FITTED
 from pysim.types import UNITS, BadInput, Record
 
 MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
@@ -194,7 +194,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     check = desk.loaded.check if desk.loaded else None
     if check is None or not check.records:
         return
-    columns = [("record", "words"), (USES["validate"], "tick"), ("kind", "words"), ("rows", "number"), ("s", "number")]
+    columns = [("record", "words"), (NOT_FITTED, "tick"), ("kind", "words"), ("rows", "number"), ("s", "number")]
     columns += [
         ("samples/s", "number"),
         ("offset", "number"),
@@ -204,10 +204,10 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     ]
     held = sum(record.use != "fit" for record in check.records)
     read = [record.source for record in check.records]
-    with card(f"{counted(len(check.records), 'record')}, {held} {USES['validate']}"):
+    with card(f"{counted(len(check.records), 'record')}, {held} {NOT_FITTED}"):
         text(
             "p",
-            f"What is {USES['validate']} is never fitted. It shows how well the model predicts. Click a row to see it.",
+            f"What is {NOT_FITTED} shows how well the model predicts. Click a row to see it.",
             "small",
         )
         Table(

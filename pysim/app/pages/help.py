@@ -12,7 +12,7 @@ _ABOUT = {
     "/": (
         "Drop a folder with a dataset.toml, a .zip, or single logs. Logs without a dataset.toml are described here.",
         "Name a Modelica class, or drop an .fmu or a library.",
-        "Logs that are held out are never fitted. They show how well the model predicts.",
+        "Logs that are not fitted show how well the model predicts.",
     ),
     "/model": (
         "Move a slider. One log is simulated again at once; the curves and the residual follow.",

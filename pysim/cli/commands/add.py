@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 
 def run(given: Given) -> Diagnosed:
-    """What each effect does to the error, on fitted and held-out data."""
+    """What each effect does to the error, on logs that are fitted and that are not."""
     from pysim.diagnosis import add
     from pysim.present.diagnosis.words import added_sentence
     from pysim.workflow import effects_of, session_of

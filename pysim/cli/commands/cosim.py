@@ -98,7 +98,8 @@ def _what(member: Any) -> str:
         )
     if isinstance(member, Sampled):
         delay = f", {1e3 * member.delay:g} ms later" if member.delay else ""
-        return f"{type(member.block).__name__}, sampled every {1e3 * member.every:g} ms{delay}"
+        block = getattr(member.block, "controller", member.block)
+        return f"{type(block).__name__}, sampled every {1e3 * member.every:g} ms{delay}"
     return type(member).__name__
 
 

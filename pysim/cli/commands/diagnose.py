@@ -37,6 +37,5 @@ COMMAND = step_command(
     run,
     names("--effects", "consider only these of the catalogue"),
     number("--max-effects", "N", 3, "effects to add at most; 0 ranks them and adds none", convert=int),
-    number("--seed", "S", 0, "number that the answer repeats; the search is not random", convert=int),
     what=", parameters.toml, the extended class and its FMU",
 )

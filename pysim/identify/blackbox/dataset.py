@@ -104,7 +104,7 @@ def fit_dataset(
     chosen = _chosen(dataset, output, tests)
     to_fit, held_out = ([one for one in chosen if (one.use != "fit") == held] for held in (False, True))
     if not to_fit:
-        raise BadInput(f"data set {dataset.name!r}: all its responses are held out; leave some to be fitted")
+        raise BadInput(f"data set {dataset.name!r}: none of its responses is to be fitted; leave some")
     several = len({(one.response.test.input, one.response.test.output) for one in to_fit}) > 1
     fitted = []
     for i, one in enumerate(to_fit):

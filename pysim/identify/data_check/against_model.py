@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from pysim.identify.data_check.finding import Finding, FindingCode, finding
 from pysim.io.prepare import Flip, Rename, Scaled
-from pysim.types import UNITS, Dataset, MeasuredSignal, Record, conversion
+from pysim.types import UNITS, Dataset, MeasuredSignal, Model, Record, conversion
 
 Array = NDArray[np.float64]
 
@@ -72,6 +72,29 @@ def against_model(dataset: Dataset, answers: Mapping[str, Record]) -> Iterator[F
     for pair in pairs:
         if pair.signal.name not in swapped:
             yield from _of_signal(pair)
+
+
+def names_beside(dataset: Dataset, model: Model, known: Collection[str] = ()) -> Iterator[Finding]:
+    """Signals that the model does not have, and its inputs that no signal drives.
+
+    Args:
+        known: inputs that have a value of their own.
+    """
+    logs = [record for record in dataset.logs() if isinstance(record.data, Record)]
+    if not logs:
+        return
+    names = {v.name for v in model.variables}
+    sides = {side: [v for v in model.variables if v.causality == side] for side in ("input", "output")}
+    for signal in dataset.signals:
+        if signal.variable not in names:
+            own = ", ".join(v.name for v in sides[signal.role]) or f"its {signal.role}s, of which there are none"
+            yield finding(FindingCode.NOT_IN_MODEL, logs[0].source, signal=signal.name, known=own)
+    driven = [signal.variable for signal in dataset.signals if signal.role == "input"]
+    rates = model.rate_inputs(driven)
+    for one in sides["input"]:
+        if not (one.name in (*driven, *rates, *known) or one.name.startswith("probe.")):
+            told = {"signal": one.name, "unit": "" if one.unit == "1" else one.unit}
+            yield finding(FindingCode.NOT_DRIVEN, logs[0].source, value=one.start or 0.0, **told)
 
 
 def _pair(dataset: Dataset, answers: Mapping[str, Record], signal: MeasuredSignal) -> _Pair | None:

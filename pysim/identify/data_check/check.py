@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from pysim.identify.data_check.against_model import against_model
+from pysim.identify.data_check.against_model import against_model, names_beside
 from pysim.identify.data_check.clipping import plateaus
 from pysim.identify.data_check.clock import Clock, clock
 from pysim.identify.data_check.finding import Finding, FindingCode, finding
@@ -16,7 +16,7 @@ from pysim.identify.data_check.gaps import fill_of, whole_rows
 from pysim.identify.data_check.swing import swing
 from pysim.identify.logged import logged_wave
 from pysim.io.prepare import DropOutliers, Exclude, FillGaps, Resample, outliers, short_name
-from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record
+from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Model, Record
 from pysim.types.record_kind import CHIRP, KINDS
 
 _PERIODS = 2.0  # whole ones that a sine fit needs after the transients are cut off
@@ -75,21 +75,29 @@ class DataCheck:
         return (*self.beside_model, *(found for record in self.records for found in record.findings))
 
 
-def check_dataset(dataset: Dataset, answers: Mapping[str, Record] | None = None) -> DataCheck:
+def check_dataset(
+    dataset: Dataset,
+    answers: Mapping[str, Record] | None = None,
+    model: Model | None = None,
+    known: Collection[str] = (),
+) -> DataCheck:
     """What a data set holds, with findings that are no errors, and the steps that cure them.
 
     Looked for: empty cells, gaps and uneven sampling; single samples far off; a command that differs from what the
     record says, in frequency, offset, amplitude or shape; fewer than two periods; harmonics beyond half the sampling
     rate, or much power close to it; signals that stand at a limit; with a model's answers also signs, units and columns
-    that cannot be right.
+    that cannot be right; with the model itself, names that it does not have, and inputs that nothing drives.
 
     Args:
         answers: source of a log -> what a model answers to it, its columns named as signals or their variables.
+        model: that the signals are of.
+        known: inputs of the model that have a value of their own.
     """
     limits = {signal.name: _extremes(dataset, signal.name) for signal in dataset.signals}
     fill = fill_of(dataset)
     records = tuple(_check(dataset, record, limits, fill) for record in dataset.records)
-    return DataCheck(dataset, records, tuple(against_model(dataset, answers or {})))
+    names = names_beside(dataset, model, known) if model else ()
+    return DataCheck(dataset, records, (*names, *against_model(dataset, answers or {})))
 
 
 def _extremes(dataset: Dataset, name: str) -> tuple[float, float]:

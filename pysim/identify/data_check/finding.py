@@ -13,6 +13,8 @@ from pysim.types._frozen import FrozenMapping
 class FindingCode(Enum):
     """What is found, in the order in which it is cured. The keys of `Finding.values` stand behind it."""
 
+    NOT_IN_MODEL = "not_in_model"  # signal, known (names): the model has no such variable, so it is not compared
+    NOT_DRIVEN = "not_driven"  # signal, value, unit: an input of the model that no signal drives
     EMPTY = "empty"  # signal, count, start (s): cells without a number
     GAP = "gap"  # count, start, length (s): samples were lost
     QUANTITY = "quantity"  # signal, unit, wanted, factor: the model counts it in another quantity

@@ -103,7 +103,7 @@ def _nominal(told: float | None, fitted: float) -> float:
 def _response(dataset: Dataset, test: _Test, repetition: int, of_frequency: dict[float, SinePoint]) -> MeasuredResponse:
     points = tuple(of_frequency[f] for f in sorted(of_frequency))
     scale = np.diag([test.amplitude, 1.0, 1.0])
-    ending = (f", repetition {repetition}" if repetition else "") + (", held out" if test.use != "fit" else "")
+    ending = (f", repetition {repetition}" if repetition else "") + (", not fitted" if test.use != "fit" else "")
     response = FrequencyResponse(
         frequency=np.array([p.frequency for p in points]),
         gain=np.array([p.gain for p in points]),

@@ -1,4 +1,4 @@
-"""The fitted model beside every record, those held out too."""
+"""The fitted model beside every record, those too that were not fitted."""
 
 from __future__ import annotations
 

@@ -12,16 +12,15 @@ from numpy.typing import NDArray
 
 from pysim.identify.greybox.beginning import first_point, settled_initial_states
 from pysim.identify.greybox.checkpoint import Checkpoint, digest
-from pysim.identify.greybox.comparison import Compared, compared, with_noise
+from pysim.identify.greybox.comparison import compared
 from pysim.identify.greybox.initial_states import initial_states
 from pysim.identify.greybox.interior_point import InteriorPoint
 from pysim.identify.greybox.least_squares import GaussNewton, blur_of
-from pysim.identify.greybox.noise import white_floor
 from pysim.identify.greybox.objective import NOISE, Objective
 from pysim.identify.greybox.observation import Measure, Simulated
 from pysim.identify.greybox.optimiser import Bounds, Optimiser, State
 from pysim.identify.greybox.problem import Problem
-from pysim.identify.greybox.residuals import Carried, Channel, Point, WeightedResiduals
+from pysim.identify.greybox.residuals import Carried, Point, WeightedResiduals
 from pysim.identify.greybox.runs import Simulation
 from pysim.identify.greybox.search import Progress, search
 from pysim.identify.greybox.settings import FitSettings
@@ -29,7 +28,6 @@ from pysim.identify.greybox.starts import starts
 from pysim.identify.greybox.trust import not_at_rest
 from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty
 from pysim.types import BadInput, Estimate, Fit, FitOutcome, Note, NoteCode, Start
-from pysim.types.answer import FloorSource
 
 Array = NDArray[np.float64]
 
@@ -84,7 +82,7 @@ def fit(
         effort: how many starts; log and resume.
         progress: called after every point; what it raises ends the fit, which can be resumed from its log.
     Returns:
-        the best of all searches. Records held out are compared, never fitted.
+        the best of all searches. The other records are compared, never fitted.
     Raises:
         BadInput: nothing free, nothing to fit for this objective, an optimiser that cannot minimise it, a model that
             could not be simulated at any start, or the log of another fit to resume.
@@ -266,7 +264,7 @@ def _result(
     carried = dict(zip(map(id, residuals.runs), point.carried.states, strict=True))
     given = dict(zip(map(id, residuals.runs), simulated, strict=False))
     beside = compared(problem, point.x, simulation, carried, given)
-    noise = _noise(problem, beside)
+    noise = problem.noise
     begun_at: tuple[Estimate, ...] = ()
     if objective.squares:
         slope, levels = space.slope(point.x), dict(zip(residuals.channels, point.levels.tolist(), strict=True))
@@ -282,7 +280,7 @@ def _result(
         values=space.values(point.x),
         undetermined=doubt.known.directions,
         combinations=doubt.combinations,
-        records=tuple(with_noise(record, noise) for record in beside.records),
+        records=beside.records,
         responses=beside.responses,
         cost=point.cost if objective.measure is Measure.SIGNAL else best.cost,
         start_cost=state.first_cost,
@@ -326,22 +324,6 @@ def _interval_notes(doubt: Uncertainty) -> list[Note]:
     if not doubt.blocks:
         notes.append(Note(NoteCode.FEW_BLOCKS, {"fewest": settings.fewest_blocks}))
     return notes
-
-
-def _noise(problem: Problem, beside: Compared) -> dict[Channel, float]:
-    """Per channel what its noise is: as specified, else the white part of what the fitted model leaves."""
-    rests: dict[Channel, list[Array]] = {}
-    noise: dict[Channel, float] = {}
-    for record in beside.records:
-        for j, name in enumerate(record.measured.names):
-            rest = record.measured.values[:, j] - record.simulated.values[:, j]
-            rests.setdefault((record.dataset, name), []).append(rest)
-            noise[record.dataset, name] = record.noise[j]
-    for channel, floor in problem.floors.items():
-        if floor.source is not FloorSource.SPECIFIED and channel in rests:
-            white = white_floor(rests[channel], problem.settings)
-            noise[channel] = max(white or noise[channel], floor.sd)
-    return {channel: noise.get(channel, floor.sd) for channel, floor in problem.floors.items()}
 
 
 def _outcome(state: State) -> FitOutcome:

@@ -29,7 +29,7 @@ def initial_states(
     offsets: Mapping[int, Array | None],
     simulation: Simulation,
 ) -> tuple[Estimate, ...]:
-    """The states at the first sample of every log of which nothing else says where it began, those held out too.
+    """The states at the first sample of every log of which nothing else says where it began, those not fitted too.
 
     They were eliminated from the fit, so their doubt has two parts: that of the log, were the parameters known, and
     that of the parameters, which they follow. The colour of the residual widens the first.

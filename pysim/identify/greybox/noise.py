@@ -45,10 +45,17 @@ def seen_noise(values: Array) -> float:
     return (middle or float(np.sqrt(np.mean(differences**2)))) / math.sqrt(_GAIN)
 
 
-def signal_noise(signal: MeasuredSignal, logs: list[Array], given: Mapping[str, float]) -> tuple[float, bool]:
-    """The noise of one signal before any model is known, and whether it had to be estimated.
+def signal_noise(
+    signal: MeasuredSignal, logs: Sequence[Array], given: Mapping[str, float], settings: NoiseSettings
+) -> tuple[float, bool]:
+    """The noise of one signal, which no model has a say in, and whether it had to be estimated.
+
+    It is what residuals are counted in, the same for every model beside these logs: the white part of the logs
+    themselves, as a signal that a plant gives is slow beside its sampling in some band. Of logs that are all too short
+    for that, the median of their fourth differences.
 
     Args:
+        logs: its columns, (n_t,) each.
         given: the caller's own numbers, which go first.
     Raises:
         BadInput: neither specified nor to be estimated.
@@ -56,10 +63,15 @@ def signal_noise(signal: MeasuredSignal, logs: list[Array], given: Mapping[str, 
     size = given.get(signal.name) or specified_noise(signal)
     if size is not None:
         return size, False
-    seen = [value for log in logs if math.isfinite(value := seen_noise(log)) and value > 0]
-    if not seen:
-        raise BadInput(f"signal {signal.name!r}: the logs show no noise, and none is specified; give noise = a number")
-    return float(np.median(seen)), True
+    white = white_floor(logs, settings)
+    if not white:
+        seen = [value for log in logs if math.isfinite(value := seen_noise(log)) and value > 0]
+        if not seen:
+            raise BadInput(
+                f"signal {signal.name!r}: the logs show no noise, and none is specified; give noise = a number"
+            )
+        white = float(np.median(seen))
+    return max(white, noise_floor(signal, logs, given, settings).sd), True
 
 
 def noise_floor(
@@ -94,7 +106,7 @@ def _step(values: Array) -> float:
 
 
 def white_floor(residuals: Sequence[Array], settings: NoiseSettings) -> float | None:
-    """Standard deviation of the white part of residuals (n_t,) of one signal, one per log; None where all are short.
+    """Standard deviation of the white part of one signal (n_t,) or its residual, per log; None where all are short.
 
     The lowest of equal bands of the periodogram, pooled with all bands that are as low within their scatter: slow and
     structured misfit lies in the others. A lower bound where the sensor has a low pass.

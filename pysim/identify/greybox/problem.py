@@ -35,7 +35,7 @@ class Problem:
     Args:
         model: left unchanged.
         space: free, tied and fixed parameters.
-        observations: measurements to fit and to hold out.
+        observations: measurements, those too that are not fitted.
         floors: least level of each channel.
         notes: what was assumed on the way.
         settings: what residuals are judged by.
@@ -52,6 +52,12 @@ class Problem:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "floors", MappingProxyType(dict(self.floors)))
+
+    @property
+    def noise(self) -> Mapping[Channel, float]:
+        """Standard deviation of each channel's noise, specified or estimated from the logs alone."""
+        own = [((o.dataset, n), sd) for o in self.observations for n, sd in zip(o.channels, o.noise, strict=True)]
+        return {channel: floor.sd for channel, floor in self.floors.items()} | dict(own)
 
     def residuals(
         self, objective: Objective = NOISE, simulation: Simulation | None = None, *, use: str = "fit"
@@ -158,7 +164,7 @@ def _context(
     notes: list[Note] = []
     for name in outputs:
         if logs := _columns(dataset, name):
-            sizes[name], is_estimated = signal_noise(dataset.signal(name), logs, data.noise)
+            sizes[name], is_estimated = signal_noise(dataset.signal(name), logs, data.noise, treatment.noise)
             if is_estimated:
                 names = {"dataset": dataset.name, "signal": name, "unit": dataset.signal(name).unit}
                 notes.append(Note(NoteCode.NOISE_ESTIMATED, {"value": sizes[name], **names}))

@@ -11,7 +11,7 @@ import numpy as np
 from pysim.identify import magnitude_db
 from pysim.identify.blackbox import FittedNumber, FittedResponse, OrderSuggestion, Root
 from pysim.present import criteria
-from pysim.present.notes import USES, words
+from pysim.present.notes import NOT_FITTED, words
 from pysim.present.plain_text import wrapped
 from pysim.types import Deviation
 from pysim.types.json_number import json_data
@@ -42,7 +42,7 @@ def _text(one: FittedResponse) -> Iterable[str]:
     yield f"{one.label}: {fit.structure.label}{', stable on request' if fit.structure.stable else ''}"
     yield f"  fit {fit.fit_percent:.2f} %; {misfit(one)}"
     yield f"  {_deviations(one.deviations)}"
-    yield from (f"  {USES['validate']}: {_deviations(deviations)}" for deviations in one.held_out)
+    yield from (f"  {NOT_FITTED}: {_deviations(deviations)}" for deviations in one.held_out)
     for e in numbers(one):
         yield f"  {e.name:<10}{e.value:>14.6g}  [{e.interval[0]:.6g}, {e.interval[1]:.6g}] {e.unit}".rstrip()
     for name, roots in (("pole", fit.poles), ("zero", fit.zeros)):

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pysim.identify.blackbox import FittedResponse, OrderSuggestion
 from pysim.present import criteria
 from pysim.present.blackbox.answer import TransferFunctions, misfit, numbers, root_text, upper
-from pysim.present.notes import USES, words
+from pysim.present.notes import NOT_FITTED, words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
@@ -42,7 +42,7 @@ def _overview(fitted: Sequence[FittedResponse]) -> str:
     for one in fitted:
         row = [one.label, one.fit.structure.label, f"{one.fit.fit_percent:.2f}", f"{one.fit.gain().value:.4g}"]
         rows.append([*row, *criteria.cells(one.deviations)])
-        rows += [[one.label, USES["validate"], "", "", *criteria.cells(other)] for other in one.held_out]
+        rows += [[one.label, NOT_FITTED, "", "", *criteria.cells(other)] for other in one.held_out]
     return table("Every response; marked: beyond the limits of thesis Table 1.3", head, rows)
 
 

@@ -10,6 +10,7 @@ from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted, shown_point
 from pysim.io.prepare import call, typed
 from pysim.present.data_check.words import cures, sentence
+from pysim.present.notes import USES
 
 UNTOLD = "-"  # a description or a system that dataset.toml leaves out
 _WIDTH = 100
@@ -107,7 +108,7 @@ def several_inputs(records: Sequence[RecordCheck]) -> bool:
 
 def _times(records: list[RecordCheck]) -> str:
     """Durations, rates, signals and use of some records."""
-    use = ", ".join(dict.fromkeys(record.use for record in records))
+    use = ", ".join(dict.fromkeys(USES[record.use] for record in records))
     signals = "; ".join(dict.fromkeys(", ".join(record.signals) for record in records))
     clocks = [record.clock for record in records if record.clock]
     if not clocks:

@@ -10,7 +10,7 @@ import numpy as np
 
 from pysim.identify.data_check import DataCheck
 from pysim.io import shown_unit
-from pysim.present.notes import USES
+from pysim.present.notes import NOT_FITTED, USES
 from pysim.present.render import Picture
 from pysim.present.style import COLOURS, DASHES, MEASURED, SMALL, TEXT, frequency_axis, legend_above, panels
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
@@ -54,18 +54,16 @@ def _test(record: MeasuredRecord) -> _Test:
 
 
 def coverage_figure(dataset: Dataset) -> Figure:
-    """A row per input, offset and amplitude, a dot per stepped sine over its frequency; hollow: held out.
+    """A row per input, offset and amplitude, a dot per stepped sine over its frequency; hollow: not fitted.
 
     Raises:
         BadInput: no stepped sine among the logs.
     """
-    sines = [record for record in dataset.logs() if record.frequency is not None]
-    if not sines:
-        raise BadInput(f"data set {dataset.name!r} has no stepped sines to show")
+    sines = _sines(dataset)
     tests = list(dict.fromkeys(_test(record) for record in sines))
     figure, ((axes,),) = panels(7.5, 1.3 + 0.28 * max(len(tests), 4))  # at least as high as the label
     handles: dict[str, Any] = {}
-    for held_out, label, face in ((False, "to fit", COLOURS[0]), (True, USES["validate"], "white")):
+    for held_out, label, face in ((False, USES["fit"], COLOURS[0]), (True, NOT_FITTED, "white")):
         chosen = [record for record in sines if record.held_out == held_out]
         rows = [tests.index(_test(record)) for record in chosen]
         frequencies = np.array([record.frequency for record in chosen])
@@ -85,6 +83,13 @@ def coverage_figure(dataset: Dataset) -> Figure:
     return figure
 
 
+def _sines(dataset: Dataset) -> list[MeasuredRecord]:
+    found = [record for record in dataset.logs() if record.frequency is not None]
+    if not found:
+        raise BadInput(f"data set {dataset.name!r} has no stepped sines to show")
+    return found
+
+
 def sine_logs_figure(dataset: Dataset) -> Figure:
     """A row per input, offset and amplitude, a panel per frequency: the last two periods of command and answer.
 
@@ -94,9 +99,7 @@ def sine_logs_figure(dataset: Dataset) -> Figure:
     Raises:
         BadInput: no stepped sine among the logs.
     """
-    sines = [record for record in dataset.logs() if record.frequency is not None]
-    if not sines:
-        raise BadInput(f"data set {dataset.name!r} has no stepped sines to show")
+    sines = _sines(dataset)
     tests = _spread(list(dict.fromkeys(_test(record) for record in sines)), _ROWS)
     frequencies = _spread(sorted({record.frequency for record in sines if record.frequency is not None}), _COLUMNS)
     outputs = Counter(name for record in sines for name in dataset.columns(record, "output"))
@@ -174,7 +177,7 @@ def time_logs_figure(dataset: Dataset) -> Figure:
             for name in shown:
                 _draw(panel, dataset, record, name, names)
             panel.set_ylabel(f"({unit})")
-            panel.set_title(f"{record.source}: {record.kind}, {record.use}", fontsize=SMALL, loc="left")
+            panel.set_title(f"{record.source}: {record.kind}, {USES[record.use]}", fontsize=SMALL, loc="left")
     for panel in axes[-1]:
         panel.set_xlabel("Time (s)")
     figure.align_ylabels()

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.present.data_check.answer import UNTOLD, several_inputs, signals_in_words
 from pysim.present.data_check.words import sentence
+from pysim.present.notes import USES
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
@@ -47,5 +48,5 @@ def _row(record: RecordCheck, several: bool) -> list[str]:
     told = [record.command or "-"] if several else []
     told += ["-" if v is None else f"{v:g}" for v in (record.offset, record.amplitude, record.frequency)]
     count = len(record.findings)
-    words = [record.source, record.kind, record.use, str(record.rows), *clock, *told]
+    words = [record.source, record.kind, USES[record.use], str(record.rows), *clock, *told]
     return [*(cell(word) for word in words), cell(str(count), "beyond" if count else "")]

@@ -9,6 +9,13 @@ from pysim.io import counted
 from pysim.io.prepare import Step, call
 
 _WORDS: Mapping[FindingCode, str] = {
+    FindingCode.NOT_IN_MODEL: (
+        "the model has no {signal}, so a fit will refuse it; rename it to one of {known}, or load the log without it"
+    ),
+    FindingCode.NOT_DRIVEN: (
+        "no signal drives the model's input {signal}, which stays at {value:g} {unit}; name the column that does, "
+        "or set its value: model.set({signal}=...)"
+    ),
     FindingCode.EMPTY: "{signal} lacks {samples}, the first at {start:.6g} s",
     FindingCode.GAP: "{gaps} of {length:.3g} s after {start:.6g} s",
     FindingCode.QUANTITY: (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from pysim.present.notes import listed
+from pysim.present.notes import USES, listed
 from pysim.types import LearnedLaw
 
 ABSORBED = "up to a level or slope that the model's own parameters do as well"  # how far such a curve is known
@@ -32,7 +32,7 @@ def law_kind(law: LearnedLaw) -> str:
 
 
 def law_sentence(law: LearnedLaw) -> str:
-    """What is missing, how much of the misfit it explains, what it looks like, and the error on held-out logs."""
+    """What is missing, how much of the misfit it explains, what it looks like, and what it does to the error."""
     kind = law_kind(law)
     on = "changes with time" if law.argument == "time" else f"depends on {law.argument}"
     if law.factor:
@@ -44,7 +44,7 @@ def law_sentence(law: LearnedLaw) -> str:
         texts.append(f"It looks like {law.formula}.")
     before, after = law.held_out
     if before is not None and after is not None:
-        texts.append(f"On held-out logs the residual goes from {before:.3g} to {after:.3g} with it.")
+        texts.append(f"On logs {USES['validate']} the residual goes from {before:.3g} to {after:.3g} with it.")
     if law.alternatives:
         texts.append(f"These data cannot tell it from a law at {listed(law.alternatives)}.")
     return " ".join(texts)

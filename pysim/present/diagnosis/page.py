@@ -34,7 +34,8 @@ _METHOD = (
     "Residuals are measured minus simulated, in standard deviations of the noise: where nothing but noise is left "
     "their root mean square is 1. The fit in percent is 100 where the model is the log, and 0 where it is no better "
     "than the log's mean. A candidate's gain is the rise of the log likelihood in nats once everything is refitted "
-    "with it, less a penalty for its parameters. Held-out logs had no part in any fit."
+    "with it, less a penalty for its parameters. Logs used to choose had no part in any fit. "
+    "Held-out logs had no part in the choice either."
 )
 
 

@@ -32,7 +32,7 @@ def errors(step: ErrorStep | Left) -> dict[str, float]:
 
 
 def _on_logs(use: str) -> str:
-    return f"on {use.replace(' ', '-')} logs"
+    return f"on logs {use}" if use == USES["validate"] else f"on {use.replace(' ', '-')} logs"
 
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
@@ -51,7 +51,7 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
     count = "an effect" if len(names) == 1 else f"{len(names)} effects"
     rest = ["More is missing than that.", *laws, _left(diagnosis)]
     more = ["Nothing but noise is left."] if diagnosis.complete else rest
-    parts = [f"The model lacks {count}: {listed(names)}.", _tie(diagnosis), _fall(diagnosis.history), *more]
+    parts = [f"The model lacks {count}: {listed(names)}.", _tie(diagnosis), _fall(diagnosis), *more]
     return " ".join(part for part in parts if part)
 
 
@@ -101,7 +101,7 @@ def ranking_sentence(diagnosis: Diagnosis) -> str:
 def added_sentence(diagnosis: Diagnosis) -> str:
     """What the effects that were asked for do to the error."""
     names = listed([_named(one) for one in diagnosis.effects])
-    return f"Added as asked: {names}. {_fall(diagnosis.history)} {limits_sentence(diagnosis.history[-1])}"
+    return f"Added as asked: {names}. {_fall(diagnosis)} {limits_sentence(diagnosis.history[-1])}"
 
 
 def candidates_shown(diagnosis: Diagnosis) -> list[Rival]:
@@ -220,8 +220,9 @@ def _tie(diagnosis: Diagnosis) -> str:
     return " ".join(f"These data cannot tell it from {listed(rest)}." for rest in groups if rest)
 
 
-def _fall(steps: Sequence[ErrorStep]) -> str:
-    """From the refitted base model to the last step."""
+def _fall(diagnosis: Diagnosis) -> str:
+    """What the effects, and a law that was learned, do to the residual of the refitted model."""
+    steps = diagnosis.history
     if len(steps) < 2:
         return ""
     base, last = next((s for s in steps if s.step == REFIT), steps[0]), steps[-1]
@@ -231,7 +232,8 @@ def _fall(steps: Sequence[ErrorStep]) -> str:
         return ""
     parts = [f"from {size_text(one)} to {size_text(other)} {_on_logs(use)}" for use, (one, other) in pairs.items()]
     falls = all(after <= before for before, after in pairs.values())
-    who, verb = "it" if len(steps) < 4 else "them", "falls" if falls else "goes"
+    who, verb = "it" if len(diagnosis.effects) == 1 else "them", "falls" if falls else "goes"
+    who += f" and the learned law{'s' if len(diagnosis.learned) > 1 else ''}" if diagnosis.learned else ""
     return f"With {who} the residual {verb} {listed(parts)}, in {UNIT}."
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pysim.identify.greybox import Profile, fit_warnings
-from pysim.present.notes import direction_words, estimate_words, words
+from pysim.present.notes import USES, direction_words, estimate_words, words
 from pysim.present.plain_text import wrapped
 from pysim.types import Dataset, Estimate, Fit, FitOutcome, RecordFit, ResponseFit
 from pysim.types.json_number import json_data
@@ -70,9 +70,9 @@ def _left_over(fit: Fit) -> list[str]:
     for record in fit.records:
         for name, value in record.rms.items():
             if record.harmonics:
-                sines.setdefault((record.dataset, record.use, name), []).append(value)
+                sines.setdefault((record.dataset, USES[record.use], name), []).append(value)
             else:
-                lines.append(f"{record.source} ({record.use}), {name}: residual {value:.3f} of the noise")
+                lines.append(f"{record.source} ({USES[record.use]}), {name}: residual {value:.3f} of the noise")
     for (dataset, use, name), values in sines.items():
         together = math.sqrt(sum(v * v for v in values) / len(values))
         lines.append(f"{len(values)} stepped sines of {dataset} ({use}), {name}: residual {together:.3f} of the noise")

@@ -13,6 +13,7 @@ from pysim.io import shown_unit, shown_value
 from pysim.present import style
 from pysim.present.charts import Chart, axis, heat_map
 from pysim.present.fit.answer import Fitted
+from pysim.present.notes import USES
 from pysim.present.overlay import Side, beside_figure
 from pysim.present.parameters import AFTER, START, between_bounds, parameters_legend
 from pysim.present.render import Picture
@@ -32,7 +33,7 @@ def figures(result: Fitted) -> Iterator[Picture]:
     for i, record in enumerate(fit.records):
         if not record.harmonics:
             of = f"{record.dataset}, " if several else ""
-            caption = f"{of}{record.source} ({record.use}): measured, fitted, and what is left."
+            caption = f"{of}{record.source} ({USES[record.use]}): measured, fitted, and what is left."
             yield Picture(f"record_{i}", caption, fit_record_figure(record))
     for i, (test, signal, records) in enumerate(_sines(fit.records, result.datasets)):
         caption = f"Stepped sines, {signal} {test}: points measured, lines fitted; grey: 95 percent of noise."

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from pysim.identify.greybox import fit_warnings
 from pysim.io import shown_value
 from pysim.present.fit.answer import Fitted, gain_text, outcome_text
-from pysim.present.notes import estimate_words, words
+from pysim.present.notes import USES, estimate_words, words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
@@ -40,7 +40,7 @@ def page(result: Fitted, drawings: Sequence[Drawing], redo: str) -> str:
 
 _METHOD = (
     "Intervals are to first order around the estimates, widened by the residual where the model does not fit to the "
-    "noise; at a bound they are one-sided. Records marked validate had no part in the fit."
+    "noise; at a bound they are one-sided. Only records marked fitted had a part in the fit."
 )
 
 
@@ -65,7 +65,7 @@ def _records(fit: Fit) -> str:
         for name, value in record.rms.items():
             kind = "beyond" if value > 1.5 else ""
             limits = [f"{d.criterion.symbol} {d.value:.2f} {d.criterion.unit}" for d in record.deviations.get(name, ())]
-            texts = (record.dataset, record.source, record.use, name)
+            texts = (record.dataset, record.source, USES[record.use], name)
             rows.append([*texts, cell(f"{value:.3f}", kind), "; ".join(limits)])
     head = ["data set", "record", "use", "signal", "residual / noise", "Table 1.4 (limits 2 % and 10 %)"]
     return table("Root-mean-square residual over the noise", head, rows, words=range(4))
@@ -79,7 +79,7 @@ def _responses(fit: Fit, units: Mapping[str, str]) -> str:
         test, deviations = response.comparison.measured.test, response.comparison.deviations
         unit = units.get(test.input, only)
         offset, amplitude = (shown_value(value, unit) for value in (test.offset, test.amplitude))
-        texts = (response.dataset, response.use, offset, amplitude, test.output)
+        texts = (response.dataset, USES[response.use], offset, amplitude, test.output)
         verdict = "pass" if response.comparison.passes else "fail"
         numbers = [cell(f"{d.value:.2f}", "" if d.passes else "beyond") for d in deviations]
         rows.append([*texts, *numbers, cell(verdict, verdict)])

@@ -45,7 +45,7 @@ def _drop(page: Any) -> None:
         write_dataset(dropped, read_set(SET))
         page.locator("input[aria-label=folder]").set_input_files(str(dropped))
         page.get_by_text("A data set was taken over").wait_for()
-    page.get_by_text(re.compile(r"\d+ records, \d+ held out")).wait_for()
+    page.get_by_text(re.compile(r"\d+ records, \d+ not fitted")).wait_for()
     page.get_by_label("Modelica class").fill(MODEL)
     page.get_by_role("button", name="Use this model").click()
     page.get_by_text("effects that fit").wait_for()

@@ -44,7 +44,7 @@ def test_single_logs_are_described_on_the_page(shown: Shown, show: Show, logs: l
     tab.see("spare: choose a unit, or a dash to leave the column out")
     tab.page.get_by_label("role of column 4").select_option("-")
     tab.press("Use these logs")
-    tab.see("3 records, 1 held out")
+    tab.see("3 records, 1 not fitted")
     found = tomllib.loads((folder / "data/dataset.toml").read_text())
     assert found["signals"] == {
         "F": {"role": "input", "unit": "N", "variable": "F"},
@@ -70,7 +70,7 @@ def test_stepped_sines_are_known_by_their_names(shown: Shown, show: Show, tmp_pa
         tab.page.get_by_label(f"name of column {number}").fill(name)
         tab.page.get_by_label(f"unit of column {number}").select_option("%")
     tab.press("Use these logs")
-    tab.see("2 records, 0 held out")
+    tab.see("2 records, 0 not fitted")
     records = tomllib.loads((tmp_path / "project/data/dataset.toml").read_text())["records"]
     assert [(r["offset"], r["amplitude"], r["frequency"]) for r in records] == [(25, 10, 1), (25, 10, 2)]
     assert tab.errors == []
@@ -88,7 +88,7 @@ def test_times_in_ms_are_told(shown: Shown, show: Show, tmp_path: Path) -> None:
     units = [tab.page.get_by_label(f"unit of column {k}").input_value() for k in (1, 2, 3)]
     assert units == ["ms", "V", "bar"]
     tab.press("Use these logs")
-    tab.see("1 record, 0 held out")
+    tab.see("1 record, 0 not fitted")
     assert tab.page.locator("td.number", has_text="7.995").count() == 1  # s, not 7995
     assert tab.errors == []
 

@@ -19,7 +19,7 @@ def test_sines_go_by_working_point_and_frequency_and_logs_by_signal(tmp_path: Pa
     sines, logs = error_maps(stage, dataset())
     assert (sines.rows, sines.columns, sines.title) == (("50 ± 10 N",), ("1", "5"), "Frequency (Hz)")
     assert sines.logs == ((0, 1),)
-    assert (logs.rows, logs.columns) == (("wave.txt (fitted)", "held.txt (held out)"), ("x",))
+    assert (logs.rows, logs.columns) == (("wave.txt (fitted)", "held.txt (used to choose)"), ("x",))
     told = {record["source"]: record["rms"][0] for record in stage["records"]}
     for one in (sines, logs):
         for row, own in zip(one.logs, one.values, strict=True):

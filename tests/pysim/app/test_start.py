@@ -32,7 +32,7 @@ def test_help_opens_at_the_right_side_by_button_and_by_key(shown: Shown, show: S
     tab = Tab(shown, show(tmp_path / "project"), artefacts())
     aside = tab.page.get_by_role("complementary", name="Help")
     tab.press("? Help")
-    tab.see("Logs that are held out are never fitted.")
+    tab.see("Logs that are not fitted show")
     tab.go("Candidates")
     tab.see("Try adds an effect and refits the model.")
     tab.shot("help")

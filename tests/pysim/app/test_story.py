@@ -27,7 +27,7 @@ def begun(shown: Shown, address: str, dropped: tuple[Path, Path]) -> Tab:
     """A tab that has data and model."""
     tab = Tab(shown, address, artefacts())
     tab.drop("folder", dropped[0])
-    tab.see("2 records, 1 held out")
+    tab.see("2 records, 1 not fitted")
     tab.drop("files", dropped[1])
     tab.see("Libraries of yours: model/Toy.mo")
     tab.page.get_by_label("Modelica class").fill("Toy.Mass")

@@ -77,7 +77,7 @@ def test_what_is_dropped_is_read_refused_with_a_remedy_and_shown_as_text(
     assert tab.page.get_by_text(HOSTILE).count() >= 2  # name of the data set, and of the signal
     assert tab.page.locator("img[src=x]").count() == 0
     tab.press("Leave them out")
-    tab.see("2 records, 0 held out")
+    tab.see("2 records, 0 not fitted")
     assert tab.errors == []
     assert tab.foreign() == []
 
@@ -89,10 +89,10 @@ def test_two_tabs_agree_and_a_reload_finds_the_same(shown: Shown, show: Show, dr
     dropped.rename(tmp_path / "project/data")
     address = show(tmp_path / "project")
     tab, other = Tab(shown, address), Tab(shown, address)
-    other.page.get_by_label("held out, good.txt").check()
-    tab.see("2 records, 1 held out")  # the other tab has followed
+    other.page.get_by_label("not fitted, good.txt").check()
+    tab.see("2 records, 1 not fitted")  # the other tab has followed
     tab.page.reload()
-    tab.see("2 records, 1 held out")
+    tab.see("2 records, 1 not fitted")
     assert tab.errors == other.errors == []
 
 
@@ -106,7 +106,7 @@ def test_a_long_record_is_drawn_with_few_points_and_all_its_spikes(shown: Shown,
     np.savetxt(data / "long.txt", np.column_stack([time, wave, wave]), fmt="%.4f")
     (data / "dataset.toml").write_text(described("long"))
     tab = Tab(shown, show(tmp_path / "project"), artefacts())
-    tab.see("1 record, 0 held out")
+    tab.see("1 record, 0 not fitted")
     tab.go("Compare")
     tab.page.locator("tr", has_text="long.txt").click()
     chart = tab.page.locator("#record .chart[data-ready=yes]")
@@ -187,17 +187,17 @@ def test_a_data_set_that_another_took_the_place_of_is_brought_back(
     (dropped / "dataset.toml").write_text(described("first", "good"))
     tab = Tab(shown, show(tmp_path / "project"), artefacts())
     tab.drop("folder", dropped)
-    tab.see("2 records, 0 held out")
+    tab.see("2 records, 0 not fitted")
     before = {path.name: path.read_bytes() for path in (tmp_path / "project/data").iterdir()}
     (dropped / "dataset.toml").write_text(described("first"))
     tab.drop("folder", dropped)
-    tab.see("1 record, 0 held out")
+    tab.see("1 record, 0 not fitted")
     tab.press("Bring back data-1")
-    tab.see("2 records, 0 held out")
+    tab.see("2 records, 0 not fitted")
     assert {path.name: path.read_bytes() for path in (tmp_path / "project/data").iterdir()} == before
     tab.shot("earlier")
     tab.press("Bring back data-2")  # and forth
-    tab.see("1 record, 0 held out")
+    tab.see("1 record, 0 not fitted")
     assert tab.errors == []
 
 

@@ -73,6 +73,41 @@ def test_a_class_beside_the_file(folder: Path) -> None:
     assert record["plant.y"][100] == pytest.approx(0.3 * (2 - np.exp(-0.01 / 0.5)) ** 100, rel=1e-4)
 
 
+PLAIN = """class Law:
+    def __init__(self, K_p, T_i, dt=None):
+        self.K_p, self.T_i, self.integral = K_p, T_i, 0.0
+        if dt:
+            self.dt = dt
+    def step(self, t, reference, measured):
+        error = reference - measured
+        self.integral += error * 0.01 / self.T_i
+        return self.K_p * (error + self.integral)
+"""
+
+
+@pytest.mark.parametrize(("own", "every"), [(", dt = 0.01", "every = 0.01"), (", dt = 0.01", ""), ("", "")])
+def test_a_plain_class_is_a_controller_too(folder: Path, own: str, every: str) -> None:
+    """As in `pysim.cosimulate`: its arguments are the inputs, wires name its output, the run gives its rate."""
+    (folder / "plain.py").write_text(PLAIN, encoding="utf-8")
+    text = CONTROLLED.replace('"pysim.control.PI"', '"plain.py:Law"').replace(", dt = 0.01", own)
+    file = read_system_file(written(folder, text.replace("every = 0.01", every), "plain.toml"))
+    (part,) = (one for one in file.system.members if isinstance(one, Sampled))
+    assert ([p.name for p in part.inputs], [p.name for p in part.outputs]) == (["reference", "measured"], ["u"])
+    assert part.every == 0.01
+    first = ran(file)
+    assert first["plant.y"][-1] == pytest.approx(3.0, abs=1e-3)
+    assert ran(file)["plant.y"] == pytest.approx(first["plant.y"], abs=0.0)  # the integral begins anew
+
+
+def test_a_controller_that_drives_nothing_is_refused(folder: Path) -> None:
+    wire = '[[connections]]\nfrom = "controller.u"\nto = "plant.u"\n'
+    text = CONTROLLED.replace(wire, "").replace("controller.reference", "plant.u = 0.0\ncontroller.reference")
+    assert ran(read_system_file(written(folder, text)))["controller.u"].any()  # the run records it by name
+    text = text.replace('record = ["plant.y", "controller.u"]', "")
+    with pytest.raises(BadInput, match=r"other\.toml: system: controller\.u goes nowhere, so controller does nothing"):
+        read_system_file(written(folder, text))
+
+
 def written(folder: Path, text: str, name: str = "other.toml") -> Path:
     (folder / name).write_text(text, encoding="utf-8")
     return folder / name

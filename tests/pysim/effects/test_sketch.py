@@ -119,7 +119,7 @@ def test_every_effect_of_the_pump_has_its_sketch() -> None:
         effect.name: law_sketch(effect, places[effect.slot], law_constants(effect, [STANDARD_LIBRARY]), around)
         for effect in fitting(read_catalogue(STANDARD_LIBRARY), name, [STANDARD_LIBRARY])
     }
-    assert len(found) == 18
+    assert len(found) >= 18
     assert [name for name, one in found.items() if one is None] == []
     assert {name for name, one in found.items() if one is not None and one.over_time} == {
         "card.sampling", "linkage.backlash", "sensor.lag", "supply.droop", "valve.hysteresis", "valve.rate_limit",

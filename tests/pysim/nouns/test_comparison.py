@@ -9,6 +9,7 @@ import pysim
 from pysim.nouns.diagnosis import Diagnosis
 from pysim.nouns.fit import Fit
 from pysim.nouns.model import Model
+from pysim.present.notes import USES
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
 from tests.pysim.nouns.conftest import FRICTION, TRUE
 
@@ -30,12 +31,12 @@ def test_numbers_are_those_of_their_definitions(mass: Model, data: Dataset) -> N
     found = pysim.compare(mass, data, initial="rest")
     for log, row in zip(data.records, found.table, strict=True):
         assert isinstance(log.data, Record)
-        away = log.data["x"] - mass.simulate(log)["x"]
+        away = log.data["x"] - mass.simulate(log, initial="rest")["x"]
         size = np.linalg.norm(log.data["x"] - log.data["x"].mean())
         assert row["fit %"] == pytest.approx(100 * (1 - np.linalg.norm(away) / size), abs=0.01)
         assert row["rms"] == pytest.approx(1e3 * np.sqrt(np.mean(away**2)), rel=1e-3)
         assert row["x noise"] == pytest.approx(row["rms"], rel=1e-6)  # the noise is 1 mm
-        assert (row["log"], row["use"]) == (log.source, log.use)
+        assert (row["log"], row["use"]) == (log.source, USES[log.use])
 
 
 def test_several_models_are_rows_of_one_table(mass: Model, data: Dataset, fitted: Fit) -> None:
@@ -73,7 +74,7 @@ def test_where_it_is_worst_comes_first(mass: Model, data: Dataset) -> None:
 
 def test_a_log_of_no_use_for_a_fit_is_compared_all_the_same(mass: Model, data: Dataset) -> None:
     only = replace(data, records=tuple(replace(one, use="test") for one in data.records))
-    assert pysim.compare(truth(mass), only).table["use"] == ("test", "test")
+    assert pysim.compare(truth(mass), only).table["use"] == ("held out", "held out")
 
 
 def test_a_displaced_start_is_estimated_from_the_log_itself(mass: Model) -> None:
@@ -98,4 +99,30 @@ def test_what_is_no_model_or_no_data_is_refused(mass: Model, data: Dataset) -> N
 def test_comparison_diagnosis_and_fit_say_the_same(mass: Model, data: Dataset, why: Diagnosis) -> None:
     """One number for one question."""
     by_compare = pysim.compare(why.model, data).table["x noise"]
-    assert by_compare == pytest.approx([why.steps["fitted"][-1], why.steps["held out"][-1]], rel=1e-3)
+    assert by_compare == pytest.approx([why.steps["fitted"][-1], why.steps["used to choose"][-1]], rel=1e-3)
+
+
+def test_a_log_that_is_held_out_is_not_said_to_be_missing(mass: Model, data: Dataset) -> None:
+    """Nothing looks at it before the verdict, which is no reason to say that every log is fitted."""
+    said = "every record is fitted"
+    for use, lacks in (("test", False), ("fit", True)):
+        records = tuple(one if one.use == "fit" else replace(one, use=use) for one in data.records)
+        why = pysim.diagnose(mass, replace(data, records=records), effects=["toy.friction"], max_effects=0)
+        assert any(said in str(note.values.get("text", "")) for note in why.found.notes) is lacks
+
+
+def test_noise_that_is_not_specified_is_one_number(mass: Model, data: Dataset) -> None:
+    """It is read off the logs alone, so that a poor model counts as poor in a fit as in a comparison."""
+    bare = replace(data, signals=tuple(replace(one, noise=None) for one in data.signals))
+    found = pysim.fit(mass, bare)
+    beside = pysim.compare(found.model, mass, bare)
+    sizes = {record.noise for records in (found.found.records, *beside.records.values()) for record in records}
+    (size,) = {one for (one,) in sizes}
+    assert size == pytest.approx(1e-3, rel=0.06)  # of the sensor; 240 ordinates in the lowest band and more
+    told = [note.values["value"] for note in (*found.found.notes, *beside.notes) if "value" in note.values]
+    assert told
+    assert set(told) == {size}
+    assert found.signals["x noise"] == pytest.approx(beside.table["x noise"][:2], rel=1e-3)
+    why = pysim.diagnose(found, effects=["toy.friction", "toy.bias"])
+    assert why.steps["fitted"][1] == pytest.approx(found.signals["x noise"][0], rel=0.1)  # the least of its models'
+    assert why.steps["fitted"][-1] == pytest.approx(1.0, abs=0.06)

@@ -9,7 +9,7 @@ import pytest
 import pysim
 import pysim.control
 from pysim.cosim import Sampled
-from pysim.nouns.controller import PlainBlock
+from pysim.cosim.plain import PlainBlock
 from pysim.nouns.model import Model
 from pysim.types import BadInput, SimulationError
 
@@ -144,3 +144,34 @@ def test_inputs_that_nothing_drives_keep_their_start(mass: Model) -> None:
     run = pysim.cosimulate({"a": mass, "b": mass.set(m=2.0)}, dt=DT, stop=0.1, wires={}, inputs={"a.F": 1.0})
     assert run["a.x"][-1] > 0
     assert np.all(run["b.x"] == 0.0)
+
+
+class Two:
+    """A controller with two outputs."""
+
+    def step(self, t: float, measured: float) -> dict[str, float]:
+        return {"u": -measured, "v": 1.0}
+
+
+def test_a_forgotten_wire_of_a_controller_is_said_with_its_cure(mass: Model) -> None:
+    """Without it the plant would stay at rest, and all numbers be zeros."""
+    inputs = {"pi.reference": 0.1}
+    with pytest.raises(BadInput, match=r"pi\.u goes nowhere, so pi does nothing; connect it to .*mass\.F.* record"):
+        closed(mass, PI(20.0, 0.5, DT), wires={"mass.x": "pi.measured"}, inputs=inputs)
+    meant = closed(mass, PI(20.0, 0.5, DT), wires={"mass.x": "pi.measured"}, inputs=inputs, record=["mass.x", "pi.u"])
+    assert meant["pi.u"][-1] != 0.0
+    assert not meant.warnings
+
+
+def test_an_output_beside_an_input_that_nothing_drives_is_a_warning(mass: Model) -> None:
+    two = Two()
+    two.outputs = ["u", "v"]  # type: ignore[attr-defined]
+    members = {"mass": mass, "other": mass, "two": two}
+    wires = {"mass.x": "two.measured", "two.u": "mass.F"}
+    run = pysim.cosimulate(members, dt=DT, stop=0.1, wires=wires)
+    (said,) = run.warnings
+    assert said.startswith("two.v goes nowhere and nothing drives other.F")
+    assert "'two.v': 'other.F'" in said
+    assert f"! {said}" in repr(run)
+    assert not pysim.cosimulate(members, dt=DT, stop=0.1, wires={**wires, "two.v": "other.F"}).warnings
+    assert not pysim.cosimulate(members, dt=DT, stop=0.1, wires=wires, inputs={"other.F": 0.0}).warnings

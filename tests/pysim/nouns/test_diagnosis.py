@@ -21,7 +21,7 @@ def test_the_effect_is_named_with_its_size(why: Diagnosis) -> None:
     (row,) = list(why.effects)
     assert row["95 % from"] < FRICTION < row["to"]
     assert why.steps["fitted"][-1] == pytest.approx(1.0, abs=0.1)
-    assert why.steps["held out"][1] > 10 * why.steps["held out"][-1]
+    assert why.steps["used to choose"][1] > 10 * why.steps["used to choose"][-1]
     assert why.candidates["effects"][0] == "toy.friction"
 
 
@@ -74,6 +74,9 @@ def test_a_log_may_begin_where_the_user_says(mass: Model, data: Dataset, tmp_pat
     assert begun.verdict == "toy.friction"
     assert begun.report(tmp_path)["fmu"].is_file()  # where a state began is no parameter of the class
     assert begun.steps["fitted"][-1] == pytest.approx(1.0, abs=0.1)
+    for log in let_go.logs():  # the answer's own model begins there too
+        assert isinstance(log.data, Record)
+        assert np.std(begun.model.simulate(log)["x"] - log.data["x"]) < 1.1e-3
 
 
 @pytest.fixture(scope="module")

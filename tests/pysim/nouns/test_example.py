@@ -17,7 +17,7 @@ def test_what_the_model_lacks_is_found_in_size(name: str) -> None:
     assert why.verdict == effect
     found = next(row for row in why.effects if row["parameter"] == size)
     assert found["95 % from"] < value < found["to"]
-    assert why.steps["unseen"][-1] == pytest.approx(1.0, abs=0.05)
+    assert why.steps["held out"][-1] == pytest.approx(1.0, abs=0.05)
 
 
 def test_there_is_no_other_example() -> None:

@@ -40,7 +40,7 @@ def test_the_staircase_that_moves_has_the_numbers_of_the_table(why: Diagnosis) -
     pytest.importorskip("plotly")
     steps = {trace.name: trace for trace in why.plot(interactive=True).data if trace.mode == "markers"}
     assert list(steps["fitted"].y[1:]) == list(why.steps["fitted"])
-    assert list(steps["held out"].y[1:]) == list(why.steps["held out"])
+    assert list(steps["used to choose"].y[1:]) == list(why.steps["used to choose"])
 
 
 def test_sliders_move_the_model(mass: Model, data: Dataset) -> None:

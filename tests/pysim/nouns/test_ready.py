@@ -7,10 +7,12 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import pysim
 from pysim.identify.data_check import FindingCode
 from pysim.io import read_dataset
 from pysim.nouns.data import Data, load
 from pysim.types import MeasuredRecord, Record
+from tests.toy import library
 
 RATE = 200.0
 TIME = np.arange(2000) / RATE
@@ -108,3 +110,21 @@ def test_clipped_stretches_are_left_out(data: Data) -> None:
         exec(line, own)
     assert own["data"].check().ok
     assert len(own["data"]) == len(found.cure) + 1  # one more stretch than is left out
+
+
+def test_what_is_measured_and_what_is_driven_is_held_against_the_model() -> None:
+    """Otherwise the first word of it would be a fit that refuses the data, or none at all of an input that stands."""
+    mass = pysim.model("Toy.Mass", library=library())
+    columns = {"t": TIME, "F [N]": FORCE, "x [m]": PLACE, "T [degC]": 20 + PLACE}
+    whole = load(columns, inputs="F", outputs=["x", "T"], time="t")
+    (found,) = whole.check(mass).findings
+    assert (found.code, found.values["signal"]) == (FindingCode.NOT_IN_MODEL, "T")
+    said = " ".join(repr(whole.check(mass)).split())
+    assert "the model has no T, so a fit will refuse it; rename it to one of x, v" in said
+    other = load({"t": TIME, "push [N]": FORCE, "x [m]": PLACE}, inputs="push", outputs="x", time="t")
+    codes = {one.code: one.values["signal"] for one in other.check(mass).findings}
+    assert codes == {FindingCode.NOT_IN_MODEL: "push", FindingCode.NOT_DRIVEN: "F"}
+    assert FindingCode.NOT_DRIVEN not in {one.code for one in other.check(mass.set(F=1.0)).findings}
+    right = load({"t": TIME, "F [N]": FORCE, "x [m]": PLACE}, inputs="F", outputs="x", time="t")
+    names = {FindingCode.NOT_IN_MODEL, FindingCode.NOT_DRIVEN}
+    assert not names & {one.code for one in right.check(mass).findings}

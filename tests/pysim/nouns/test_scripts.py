@@ -48,7 +48,7 @@ def run(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Callable[..., Ran]:
     return ran
 
 
-def errors(*given: Any, use: str = "test") -> list[float]:
+def errors(*given: Any, use: str = "held out") -> list[float]:
     """Rms over the noise on logs that were never given, model by model, all signals and logs together."""
     rows = [row for row in pysim.compare(*given).table if row["use"] == use]
     models = dict.fromkeys(row["model"] for row in rows)

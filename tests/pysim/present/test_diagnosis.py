@@ -44,6 +44,23 @@ def test_the_verdict_names_effects_and_says_the_error_before_and_after() -> None
     assert numbers(verdict_sentence(found_offset(history=steps))) == [2.0, 1.0]
 
 
+def test_one_effect_is_it_and_several_are_them_however_many_steps_there_were() -> None:
+    """A step more is there where an effect joined on trial and was left out again."""
+    steps = tuple(step(name, fit, None, 0.1) for name, fit in (("prior", 4.0), ("refit", 3.0), ("x", 2.0), ("y", 1.0)))
+    one = found_offset(history=steps)
+    assert "With it the residual falls from 3.00 to 1.00 on fitted logs" in verdict_sentence(one)
+    assert "With them the residual" in verdict_sentence(replace(one, effects=one.effects * 2))
+
+
+def test_each_use_of_logs_has_one_word() -> None:
+    """Fitted, used to choose between models, and held out from both."""
+    steps = tuple(replace(step(*own), test=own[1]) for own in (("refit", 3.0, 2.5, 0.1), ("x", 1.0, 1.1, 0.1)))
+    said = verdict_sentence(found_offset(history=steps))
+    assert re.findall(r"on (?:[\w-]+ logs|logs [\w ]+?)(?=,| and)", said)[:3] == [
+        "on fitted logs", "on logs used to choose", "on held-out logs",
+    ]  # fmt: skip
+
+
 def test_what_is_left_is_said_with_none_with_unknown_and_where_more_is_missing() -> None:
     assert numbers(verdict_sentence(nothing())) == [4.2, 3.2]
     left = Left({}, 4.2, 3.2, 0.6, 9.0)
@@ -124,7 +141,7 @@ def test_a_size_that_people_turn_over_is_given_both_ways() -> None:
 def test_each_signal_has_one_residual_one_fit_and_one_rms_in_its_unit() -> None:
     """Noise of 0.5 m on a wave of 20 m, and nothing else."""
     fitted, held = signal_rows(found_offset().history[-1].records)
-    assert (fitted[:2], held[:2]) == (("x", "fitted"), ("x", "held out"))
+    assert (fitted[:2], held[:2]) == (("x", "fitted"), ("x", "used to choose"))
     for _, _, residual, percent, rms, unit in (fitted, held):
         assert residual == pytest.approx(1.0, abs=0.01)
         assert rms == pytest.approx(0.5, abs=0.005)

@@ -37,7 +37,7 @@ def test_the_error_of_logs_that_nobody_looked_at_is_drawn_too() -> None:
     steps = [replace(one, test=one.fit + 1) for one in found_offset().history if one.fit is not None]
     figure = error_figure(steps)
     assert list(figure.axes[0].lines[-1].get_ydata()) == pytest.approx([9.1, 5.2, 2.0])
-    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["fitted", "held out", "unseen"]
+    assert [text.get_text() for text in figure.legends[0].get_texts()] == ["fitted", "used to choose", "held out"]
 
 
 def test_an_error_without_held_out_data_has_one_line() -> None:
@@ -101,7 +101,10 @@ def test_the_map_holds_the_residuals_by_test_and_frequency() -> None:
     assert [label.get_text() for label in before.get_yticklabels()] == ["offset 50 N, amplitude 10 N"]
     assert texts(before) == ["4.6", "3.2"]  # the roots of 1 + 4.5^2 and 1 + 3^2
     assert texts(after) == ["1.0", "1.0"]
-    assert [label.get_text() for label in logs.get_yticklabels()] == ["wave.txt (fitted): x", "held.txt (held out): x"]
+    assert [label.get_text() for label in logs.get_yticklabels()] == [
+        "wave.txt (fitted): x",
+        "held.txt (used to choose): x",
+    ]
     bare = map_figure(found_offset(), None).axes[0]
     assert [label.get_text() for label in bare.get_yticklabels()] == ["sines/1Hz.txt", "sines/5Hz.txt"]
     with pytest.raises(BadInput, match="residual map"):

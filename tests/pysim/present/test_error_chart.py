@@ -25,8 +25,8 @@ def test_logs_that_nobody_looked_at_have_a_line_of_their_own() -> None:
     found = error_chart(
         [ErrorStep("prior", 8.0, 7.0, 7.5, {}, True, 1.0), ErrorStep("refit", 4.0, 3.0, 3.5, {}, True, 1.0)]
     )
-    assert [v for v in trace(found, "unseen")["y"] if v is not None] == [7.5, 7.5, 3.5, 3.5]
-    assert len({trace(found, name)["line"]["dash"] for name in ("fitted", "held out", "unseen")}) == 3
+    assert [v for v in trace(found, "held out")["y"] if v is not None] == [7.5, 7.5, 3.5, 3.5]
+    assert len({trace(found, name)["line"]["dash"] for name in ("fitted", "used to choose", "held out")}) == 3
     shifts = {note["text"]: (note.get("xshift", 0), note.get("yshift", 0)) for note in found["layout"]["annotations"]}
     assert shifts["<b>8.00</b>"][1] > 0 > shifts["<b>7.00</b>"][1]
     assert shifts["<b>7.50</b>"][0] > 0

@@ -101,7 +101,7 @@ def test_the_legend_gives_pressures_in_bar() -> None:
 def test_responses_that_are_held_out_are_told_from_the_others() -> None:
     sines = log(5.0), log(9.0), replace(log(7.0), use="validate")
     figure = frf_figure(measured_responses(dataset(*sines)), None)
-    assert [t.get_text() for t in figure.legends[0].get_texts()] == ["+50 ± 10 %", "+50 ± 10 %, held out"]
+    assert [t.get_text() for t in figure.legends[0].get_texts()] == ["+50 ± 10 %", "+50 ± 10 %, used to choose"]
 
 
 def test_responses_of_several_outputs_are_told_apart() -> None:

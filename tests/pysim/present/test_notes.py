@@ -12,6 +12,7 @@ VALUES = {
     NoteCode.NOISE_ESTIMATED: {"dataset": "bench", "signal": "p", "value": 1e5, "unit": "Pa"},
     NoteCode.NOISE_ASSUMED: {"dataset": "bench", "magnitude": 0.22, "phase": 1.0},
     NoteCode.NOT_COMPARED: {"record": "a.csv"},
+    NoteCode.NOT_WIRED: {"outputs": "pi.v", "inputs": "mass.F", "output": "pi.v", "input": "mass.F"},
     NoteCode.NOT_SETTLED: {"record": "a.csv", "others": 2.0},
     NoteCode.NOT_SIMULATED: {"record": "a.csv", "reason": "stiff. No step is short enough."},
     NoteCode.NOT_TRIED: {"effect": "axis.friction", "reason": "no slot takes it"},

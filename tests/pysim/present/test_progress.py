@@ -106,7 +106,7 @@ def test_the_block_shows_time_stage_and_the_error_falling() -> None:
     assert [line.split()[0:2] for line in bars] == [["as", "it"], ["refitted", "4.20"], ["+", "toy.offset"]]
     lengths = [line.count("#") for line in bars]
     assert lengths[0] == 24 > lengths[1] > lengths[2] == 0  # nothing but noise has no bar
-    assert bars[0].endswith("held out    8.00")
+    assert bars[0].endswith("used to choose    8.00")
     assert learned == "  - found"
 
 

@@ -46,7 +46,7 @@ def found() -> tuple[dict[str, float], list[float]]:
         fitted = pysim.fit(mass, let_go(seed), initial="estimate", progress=False)
         ends = {name: fitted.intervals[name] for name in truth}
         inside.update(name for name, true in truth.items() if ends[name][0] < true < ends[name][1])
-        percent += [row["fit %"] for row in fitted.signals if row["use"] == "validate"]
+        percent += [row["fit %"] for row in fitted.signals if row["use"] == "used to choose"]
     shares = {name: inside[name] / len(SEEDS) for name in truth}
     print("inside:", shares, "held-out fit from", min(percent), "median", float(np.median(percent)))
     return shares, percent

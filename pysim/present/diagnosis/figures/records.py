@@ -20,7 +20,7 @@ _STRETCH = 2.0  # s of another log that are shown, where the refitted model fail
 
 
 def telling_records(diagnosis: Diagnosis) -> list[RecordFit]:
-    """Records on which the base model fails most, as it has them: a log, a stepped sine, and one held out."""
+    """Records on which the base model fails most, as it has them: a log, a stepped sine, and one not fitted."""
     base = diagnosis.base
     kinds: dict[tuple[bool, bool], RecordFit] = {}
     for record in () if base is None else base.records:

@@ -6,12 +6,18 @@ import copy
 import inspect
 import weakref
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from numbers import Real
 from typing import Any
 
 import numpy as np
 
+from pysim.cosim.sampled import Sampled
+from pysim.cosim.system import Part
 from pysim.types import BadInput, Port
+
+_BLOCK = ("inputs", "outputs", "step", "state", "restore")
+_ALONE = "u"  # the output of a controller that no wire begins at
 
 # Number of a controller -> its numbers before its last run, and behind it.
 _RUNS: dict[int, tuple[Mapping[str, Any], Mapping[str, Any]]] = {}
@@ -34,7 +40,7 @@ class PlainBlock:
     """
 
     def __init__(self, name: str, controller: Any, outputs: Sequence[str], units: Mapping[str, str]) -> None:
-        self._name, self._controller, self._outputs = name, controller, tuple(outputs)
+        self._name, self.controller, self._outputs = name, controller, tuple(outputs)
         parameters = step_arguments(name, controller)
         self.inputs = tuple(Port(p.name, units.get(p.name, "1"), _default(name, p)) for p in parameters)
         self.outputs = tuple(Port(one, units.get(one, "1")) for one in outputs)
@@ -43,7 +49,7 @@ class PlainBlock:
 
     def begin(self) -> None:
         """A run begins. What the one before has changed is as that found it, unless its owner has set it since."""
-        own = self._controller
+        own = self.controller
         found, left = _RUNS.get(id(own), ({}, {}))
         for key, _ in self._held:
             if key in left and np.array_equal(getattr(own, key), left[key], equal_nan=True):
@@ -52,16 +58,16 @@ class PlainBlock:
 
     def end(self) -> None:
         """The run is over."""
-        if id(self._controller) not in _RUNS:
-            weakref.finalize(self._controller, _RUNS.pop, id(self._controller), None)
-        _RUNS[id(self._controller)] = self._found, self._numbers()
+        if id(self.controller) not in _RUNS:
+            weakref.finalize(self.controller, _RUNS.pop, id(self.controller), None)
+        _RUNS[id(self.controller)] = self._found, self._numbers()
 
     def _numbers(self) -> Mapping[str, Any]:
-        return {key: copy.copy(getattr(self._controller, key)) for key, _ in self._held}
+        return {key: copy.copy(getattr(self.controller, key)) for key, _ in self._held}
 
     def step(self, time: float, inputs: Sequence[float]) -> tuple[float, ...]:
         """One sample."""
-        given = self._controller.step(time, *inputs)
+        given = self.controller.step(time, *inputs)
         if isinstance(given, Mapping):
             missing = [one for one in self._outputs if one not in given]
             if missing:
@@ -75,7 +81,7 @@ class PlainBlock:
         """All numbers that it holds."""
         found: list[float] = []
         for key, size in self._held:
-            value = getattr(self._controller, key)
+            value = getattr(self.controller, key)
             if _size(value) != size:
                 raise BadInput(
                     f"{self._name}: its {key} was {_words(size)} and is {_words(_size(value))}; make it as long as it "
@@ -88,9 +94,62 @@ class PlainBlock:
         """Put them back, as what they were: whole numbers stay whole, rows stay rows."""
         at = 0
         for key, size in self._held:
-            old, count = getattr(self._controller, key), 1 if size == -1 else int(size or 0)
+            old, count = getattr(self.controller, key), 1 if size == -1 else int(size or 0)
             part, at = list(state[at : at + count]), at + count
-            setattr(self._controller, key, _like(old, part))
+            setattr(self.controller, key, _like(old, part))
+
+
+@dataclass(frozen=True)
+class Unwired:
+    """A controller whose ports and units its wires have yet to give; its fields are those of `Sampled`."""
+
+    name: str
+    controller: Any
+    every: float
+    delay: float = 0.0
+    hold: int = 0
+
+    def __post_init__(self) -> None:
+        step_arguments(self.name, self.controller)
+
+
+def sampled(name: str, controller: Any, every: float, delay: float = 0.0, hold: int = 0) -> Sampled | Unwired:
+    """A block as it is, and a plain object until its wires are known."""
+    whole = all(hasattr(controller, attribute) for attribute in _BLOCK)
+    return (Sampled if whole else Unwired)(name, controller, every, delay, hold)
+
+
+def wired(parts: Sequence[Part | Unwired], wires: Sequence[tuple[str, str]]) -> tuple[Part, ...]:
+    """The parts, of which every controller has the ports that wires (output, input) give it, in the units they carry.
+
+    Raises:
+        BadInput: what `PlainBlock` refuses.
+    """
+    known = [part for part in parts if not isinstance(part, Unwired)]
+    units = {f"{part.name}.{p.name}": p.unit for part in known for p in (*part.inputs, *part.outputs)}
+    for _ in range(len(parts) - len(known)):  # a unit goes from wire to wire, through as many controllers as there are
+        for source, target in wires:
+            unit = units.get(source) or units.get(target)
+            if unit:
+                units.setdefault(source, unit)
+                units.setdefault(target, unit)
+    return tuple(_with_ports(part, wires, units) if isinstance(part, Unwired) else part for part in parts)
+
+
+def _with_ports(part: Unwired, wires: Sequence[tuple[str, str]], units: Mapping[str, str]) -> Sampled:
+    own = {port.partition(".")[2]: unit for port, unit in units.items() if port.partition(".")[0] == part.name}
+    block = PlainBlock(part.name, part.controller, _outputs(part, wires), own)
+    block.begin()
+    return Sampled(part.name, block, part.every, part.delay, part.hold)
+
+
+def _outputs(part: Unwired, wires: Sequence[tuple[str, str]]) -> list[str]:
+    """Names of what a controller returns: those it lists itself, else those that wires begin with."""
+    listed = getattr(part.controller, "outputs", None)
+    if listed:
+        return [str(each) for each in listed]
+    begun = [source.partition(".")[2] for source, _ in wires if source.partition(".")[0] == part.name]
+    return list(dict.fromkeys(begun)) or [_ALONE]
 
 
 def step_arguments(name: str, controller: Any) -> list[inspect.Parameter]:

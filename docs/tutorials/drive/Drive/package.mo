@@ -1,2 +1,0 @@
-package Drive "Positioning drive: motor, spindle, carriage, cascaded control"
-end Drive;
