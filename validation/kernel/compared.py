@@ -73,7 +73,7 @@ def compared(subject: Subject) -> Compared:
     rodas, esdirk, *tight = (off(run.values, known) for run in runs)
     by = tuple(str(name) for name in known.parameters)
     usual, tighter = TOLERANCES
-    cvode = (float(off(run, known).max() / t) for run, t in zip(known.alike, known.alike_tolerances, strict=True))
+    cvode, cvode_tight = (off(run, known).max() / t for run, t in zip(known.alike, known.alike_tolerances, strict=True))
     statistics = runs[0].statistics
     events, slopes, exact = statistics["events"], float("nan"), True
     if by:
@@ -86,7 +86,8 @@ def compared(subject: Subject) -> Compared:
         float(rodas.max() / usual),
         float(esdirk.max() / usual),
         float(np.max(tight) / tighter),
-        *cvode,
+        float(cvode),
+        float(cvode_tight),
         names[int(np.maximum(rodas, esdirk).argmax())],
         slopes,
         by,
