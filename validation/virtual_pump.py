@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,11 +53,7 @@ def measured(records: Sequence[MeasuredRecord], seed: int) -> Dataset:
         size = np.array([NOISE.get(name, 0.0) for name in record.data.names])
         values = record.data.values + size * rng.standard_normal(record.data.values.shape)
         data = Record(record.data.time, values, record.data.names, record.data.units, origin="virtual")
-        noisy.append(
-            MeasuredRecord(
-                record.source, record.kind, record.use, data, record.offset, record.amplitude, record.frequency
-            )
-        )
+        noisy.append(replace(record, data=data))
     return Dataset(f"virtual-{seed}", "simulated with known parameters", "pump", SIGNALS, tuple(noisy))
 
 

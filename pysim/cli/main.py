@@ -38,6 +38,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         0 done, 1 the answer is no, 2 wrong use, 3 our bug.
     """
     print_everything()
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # NumPy comes later; its threads spin where runs are simulated
     words = list(sys.argv[1:] if argv is None else argv)
     try:
         parser = argument_parser(words[0] if words else "")

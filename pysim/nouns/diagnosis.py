@@ -120,9 +120,10 @@ def _asked(
     parts: SessionParts, work: Callable[..., Answer], progress: Progress, title: str, settings: Any = None
 ) -> Answer:
     """Run a step of the diagnosis and make its answer whole."""
+    from pysim.simulate import one_blas_thread
     from pysim.workflow import session_of, whole_answer
 
-    with showing(progress, title) as say:
+    with showing(progress, title) as say, one_blas_thread():
         return whole_answer(work(session_of(parts, settings), progress=say), parts)
 
 

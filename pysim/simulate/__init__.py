@@ -3,6 +3,7 @@
 from pysim.simulate._base import Solver
 from pysim.simulate._check import check_override, value_objection
 from pysim.simulate._messages import Mailbox
+from pysim.simulate._pool import one_blas_thread
 from pysim.simulate._request import Take
 from pysim.simulate._run import simulate, simulate_many
 from pysim.simulate.esdirk import Esdirk
@@ -54,6 +55,7 @@ __all__ = [
     "is_number",
     "is_smooth",
     "kernel_is_built",
+    "one_blas_thread",
     "open_runs",
     "open_stepwise",
     "periodic_many",

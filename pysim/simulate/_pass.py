@@ -52,6 +52,7 @@ def run_tasks(
     for numbers in groups.values():
         tasks = Tasks(library.model, kind, [requests[number] for number in numbers], library.packs)
         shown += _Crew(library, tasks, workers, later(progress, shown, len(requests)), stopped).run()
+        tasks.let_go()
         found |= {number: Found(tasks, place) for place, number in enumerate(numbers)}
     return [found[number] for number in range(len(requests))]
 

@@ -7,8 +7,9 @@ import threading
 from collections import deque
 from collections.abc import Callable, Sequence
 from concurrent.futures import FIRST_EXCEPTION, ThreadPoolExecutor, wait
+from contextlib import AbstractContextManager
 from queue import Empty, SimpleQueue
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from pysim.types import BadInput, Model
 
@@ -27,6 +28,13 @@ def worker_count(function: str, model: Model, workers: int | None) -> int:
     if workers is not None and not (isinstance(workers, int) and workers >= 1):
         raise BadInput(f"{function}: workers must be at least 1, a whole number, got {workers!r}")
     return 1 if model.abilities.single_instance else workers or os.cpu_count() or 1
+
+
+def one_blas_thread() -> AbstractContextManager[Any]:
+    """For the length of a block: threads of BLAS spin while they wait, on the cores where runs are simulated."""
+    from threadpoolctl import threadpool_limits
+
+    return threadpool_limits(1, "blas")
 
 
 def side_by_side(

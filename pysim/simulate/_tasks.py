@@ -73,7 +73,7 @@ class Tasks:
 
     def _put_takes(self, sizes: NDArray[np.int64]) -> NDArray[np.int64]:
         """Have rows handed over; how many of each task are in memory at a time."""
-        self._callback = TAKE(self._take)
+        self._callback: Any = TAKE(self._take)
         given = np.array([take is not None for take in self._takes])
         sizes = np.where(given, np.minimum(sizes, STRETCH), sizes)
         self._put("take", np.where(given, ctypes.cast(self._callback, ctypes.c_void_p).value or 0, 0))
@@ -89,6 +89,10 @@ class Tasks:
             take(first, *(self._results[name][place : place + count] for name in ("values", "slopes")))
         except BaseException as error:
             self.error = error
+
+    def let_go(self) -> None:
+        """Keep nobody who took rows: the callback holds the tasks in a circle, and all that takers keep with them."""
+        self._takes, self._callback = [], None
 
     def _make_results(self, count: int, n: int) -> dict[str, Any]:
         rows, n_y, n_p = int(self._first[-1]), len(self.record), self.parameters

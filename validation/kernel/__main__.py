@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from validation.kernel.case import HEAD, findings, result, row, subjects
 
-_WIDTHS = (36, 9, 9, 9, 9, 9, 5, 6, 8, 34, 0)
+_WIDTHS = (36, 9, 9, 9, 9, 9, 9, 5, 6, 8, 34, 0)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

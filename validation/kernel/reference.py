@@ -18,9 +18,9 @@ from validation.kernel.subjects import Subject, recorded
 Array = NDArray[np.float64]
 
 STORE = Path(__file__).parents[2] / "results" / "kernel"
-TOLERANCE, ALIKE = 1e-10, 1e-6  # of CVODE: of the reference, and where it errs as a run at our tolerance may
-# Of a parameter's value. A wider step beside it shows what a difference leaves open. Past events our slopes are
-# differences too, of a step as wide as WIDE, and what sticks and slips is curved within that.
+TOLERANCE, ALIKE = 1e-10, (1e-6, 1e-8)  # of CVODE: of the reference, and where it errs as our runs may
+# Of a parameter's value. A wider step beside it shows what a difference leaves open. Past events, and without
+# derivatives of the FMU's own, our slopes are differences too, of a step as wide as WIDE: curves and kinks lie within.
 STEP, WIDER, WIDE = 1e-4, 2e-4, 1e-3
 MOST, TRIED = 3, 12  # parameters by which differences are taken; tried to find those that do most
 _COARSE = 201  # rows of the runs that only rank parameters
@@ -41,8 +41,8 @@ class Reference:
         slopes: (n_s, n_y, n_p) times the parameter's value: change of a signal as the parameter is doubled.
         open: (n_s, n_y, n_p) by how much a difference over a wider step differs from that: curvature, jumps, noise.
         nominal: (n_y,) nominal values, 1 where the FMU states none.
-        alike: (n_t, n_y) values by CVODE at our runs' tolerance, or at a tenth of it where it gives up there.
-        alike_tolerance: that tolerance.
+        alike: (2, n_t, n_y) values by CVODE at our runs' tolerances, or at a tenth of one where it gives up there.
+        alike_tolerances: (2,) those tolerances.
     """
 
     times: Array
@@ -54,7 +54,7 @@ class Reference:
     open: Array
     nominal: Array
     alike: Array
-    alike_tolerance: float
+    alike_tolerances: Array
 
     @property
     def size(self) -> Array:
@@ -69,7 +69,9 @@ def reference(subject: Subject, store: Path = STORE) -> Reference:
         LookupError: the model cannot be built here, or has nothing to compare.
     """
     fmu = subject.fmu()
-    digest = hashlib.sha256(fmu.read_bytes() + repr((subject.stop, TOLERANCE, STEP)).encode()).hexdigest()[:12]
+    digest = hashlib.sha256(fmu.read_bytes() + repr((subject.stop, TOLERANCE, ALIKE, STEP, WIDE)).encode()).hexdigest()[
+        :12
+    ]
     file = store / f"{subject.name.split(' ')[0]}-{digest}.npz"
     if not file.is_file():
         made = _made(fmu, subject)
@@ -78,8 +80,7 @@ def reference(subject: Subject, store: Path = STORE) -> Reference:
         np.savez_compressed(part, **{field.name: getattr(made, field.name) for field in fields(made)})
         part.replace(file)
     with np.load(file) as stored:
-        arrays = {name: stored[name] for name in stored.files}
-    return Reference(**arrays | {"alike_tolerance": float(arrays["alike_tolerance"])})
+        return Reference(**{name: stored[name] for name in stored.files})
 
 
 def _made(fmu: Path, subject: Subject) -> Reference:
@@ -89,24 +90,31 @@ def _made(fmu: Path, subject: Subject) -> Reference:
         raise LookupError("it has no number that could be recorded")
     run = _Runner(model, names)
     values = run(subject.times, {})
-    alike_tolerance = ALIKE
-    try:
-        alike = _Runner(model, names, alike_tolerance)(subject.times, {})
-    except RuntimeError:
-        alike_tolerance /= 10
-        alike = _Runner(model, names, alike_tolerance)(subject.times, {})
+    alike, tolerances = zip(*(_alike(model, names, subject.times, tolerance) for tolerance in ALIKE), strict=True)
     slope_times = subject.times[:: max(1, subject.times.size // _SLOPE_ROWS)]
     nominal = np.array([model[name].nominal or 1.0 for name in names])
     size = np.abs(values).max(axis=0) + nominal
     parameters = _strongest(model, run, subject.times[:: max(1, subject.times.size // _COARSE)], size)
-    wider = WIDE if run.meets_events(subject.times[:: max(1, subject.times.size // _COARSE)]) else WIDER
+    exact = model.abilities.directional_derivatives
+    ours_are_exact = exact and not run.meets_events(subject.times[:: max(1, subject.times.size // _COARSE)])
+    wider = WIDER if ours_are_exact else WIDE
     slopes, left = np.zeros((2, slope_times.size, len(names), len(parameters)))
     for p, name in enumerate(parameters):
         slopes[:, :, p] = _difference(model, run, slope_times, name, STEP)
         left[:, :, p] = np.abs(_difference(model, run, slope_times, name, wider) - slopes[:, :, p])
     labels = np.array(parameters, dtype=np.str_)
     columns = np.array(names), values, slope_times, labels, slopes, left
-    return Reference(subject.times, *columns, nominal, alike, alike_tolerance)
+    return Reference(subject.times, *columns, nominal, np.array(alike), np.array(tolerances))
+
+
+def _alike(model: Model, names: Sequence[str], times: Array, tolerance: float) -> tuple[Array, float]:
+    """Values (n_t, n_y) at a tolerance, or at a tenth of it where CVODE gives up there; and that of the values."""
+    run = _Runner(model, names, tolerance)
+    try:
+        return run(times, {}), run.tolerance
+    except RuntimeError:
+        run = _Runner(model, names, tolerance / 10)
+        return run(times, {}), run.tolerance
 
 
 def _strongest(model: Model, run: Callable[..., Array], times: Array, size: Array) -> list[str]:
@@ -137,7 +145,7 @@ class _Runner:
     def __init__(self, model: Model, names: Sequence[str], tolerance: float = TOLERANCE) -> None:
         self._names, self._folder = list(names), str(extracted(model.path))
         self._description = read_model_description(self._folder, validate=False)
-        self._interval, self._tolerance = np.inf, tolerance  # s between communications, at most
+        self._interval, self.tolerance = np.inf, tolerance  # s between communications, at most
 
     def __call__(self, times: Array, overrides: Mapping[str, float]) -> Array:
         row = float(times[1] - times[0])
@@ -148,8 +156,8 @@ class _Runner:
             except RuntimeError as error:
                 if "mxstep" in str(error) and self._interval > _SHORTEST:
                     self._interval = min(row, self._interval) / 10  # CVODE gives up after 500 steps without an output
-                elif "error test failed" in str(error) and self._tolerance < _LOOSEST:
-                    self._tolerance *= 10  # a delay's value is interpolated, which CVODE cannot refine
+                elif "error test failed" in str(error) and self.tolerance < _LOOSEST:
+                    self.tolerance *= 10  # a delay's value is interpolated, which CVODE cannot refine
                 else:
                     raise
 
@@ -175,7 +183,7 @@ class _Runner:
             validate=False,
             stop_time=stop,
             solver="CVode",
-            relative_tolerance=self._tolerance,
+            relative_tolerance=self.tolerance,
             output_interval=interval,
             record_events=record_events,
             start_values=dict(overrides),

@@ -54,7 +54,10 @@ def foreign() -> tuple[Subject, ...]:
     folder = os.environ.get(FOLDER)
     found = []
     for file in sorted(Path(folder).glob("*.fmu")) if folder else ():
-        experiment = read_model_description(str(file), validate=False).defaultExperiment
+        description = read_model_description(str(file), validate=False)
+        if description.modelExchange is None:
+            continue
+        experiment = description.defaultExperiment
         stop = float(experiment.stopTime) if experiment is not None and experiment.stopTime else _NO_STOP
         found.append(Subject(f"{file.stem} (foreign)", min(stop, HORIZON), file=file))
     return tuple(found)

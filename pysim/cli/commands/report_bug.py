@@ -13,7 +13,7 @@ from pathlib import Path
 
 from pysim.cli.command import DONE, Command, Given
 
-_OURS = ("HTB_CACHE", "OPENMODELICAHOME", "MODELICAPATH", "OPENBLAS_NUM_THREADS", "PYTHONUTF8")
+_OURS = ("HTB_CACHE", "OPENMODELICAHOME", "MODELICAPATH", "PYTHONUTF8")
 _TO_FILL_IN = """
 What I typed, or the lines of Python:
 

@@ -27,6 +27,7 @@ from pysim.identify.greybox.settings import FitSettings
 from pysim.identify.greybox.starts import starts
 from pysim.identify.greybox.trust import not_at_rest
 from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty
+from pysim.simulate import one_blas_thread
 from pysim.types import BadInput, Estimate, Fit, FitOutcome, Note, NoteCode, Start
 
 Array = NDArray[np.float64]
@@ -99,18 +100,17 @@ def fit(
     begun = starts(problem.model, problem.space, effort.starts, effort.seed, nominal=effort.nominal)
     objective.chosen(problem.observations)  # what it refuses is refused before an earlier log is given up
     _forget_earlier(effort, begun)
-    states = _searched(problem, objective, optimiser, simulation, effort, begun, progress)
-    good = {name: state for name, state in states.items() if state.best.good}
-    if not good:
-        reasons = "; ".join(f"{name}: {state.message}" for name, state in states.items())
-        raise BadInput(f"fit: the model could not be simulated at any start ({reasons}); give other start values")
-    name = min(good, key=lambda key: good[key].best.cost)
-    polished = [
-        _polished(problem, objective, optimiser, simulation, effort, key, good[key], progress)
-        for key in _worth_polishing(good, name)
-    ]
-    state = min(polished, key=lambda one: one.best.cost)
-    return _result(problem, objective, optimiser, simulation, states, state, begun)
+    searches = _Searches(problem, objective, optimiser, simulation, effort, progress)
+    with one_blas_thread():
+        states = searches.rough(begun)
+        good = {name: state for name, state in states.items() if state.best.good}
+        if not good:
+            reasons = "; ".join(f"{name}: {state.message}" for name, state in states.items())
+            raise BadInput(f"fit: the model could not be simulated at any start ({reasons}); give other start values")
+        best = min(good, key=lambda name: good[name].best.cost)
+        polished = [searches.polished(name, good[name]) for name in _worth_polishing(good, best)]
+        state = min(polished, key=lambda one: one.best.cost)
+        return _result(problem, objective, optimiser, simulation, states, state, begun)
 
 
 def fit_at(problem: Problem, values: Mapping[str, float], simulation: Simulation | None = None) -> Fit:
@@ -121,11 +121,12 @@ def fit_at(problem: Problem, values: Mapping[str, float], simulation: Simulation
     """
     simulation = simulation or Simulation()
     x = problem.space.to_search(np.array([values[key] for key in problem.space.keys]))
-    point = settled_initial_states(problem.residuals(NOISE, simulation), problem.model, problem.space, x)
-    if not point.good:
-        raise BadInput(f"fit: the model could not be simulated where it ended ({point.failure}); fit it again")
-    state = State(point, first_cost=point.cost, memory={"turned": 1.0}, outcome=FitOutcome.CONVERGED)
-    return _result(problem, NOISE, GaussNewton(), simulation, {"end": state}, state, {"end": x})
+    with one_blas_thread():
+        point = settled_initial_states(problem.residuals(NOISE, simulation), problem.model, problem.space, x)
+        if not point.good:
+            raise BadInput(f"fit: the model could not be simulated where it ended ({point.failure}); fit it again")
+        state = State(point, first_cost=point.cost, memory={"turned": 1.0}, outcome=FitOutcome.CONVERGED)
+        return _result(problem, NOISE, GaussNewton(), simulation, {"end": state}, state, {"end": x})
 
 
 def _forget_earlier(effort: Effort, begun: Mapping[str, Array]) -> None:
@@ -142,25 +143,6 @@ def _polish_of(name: str) -> str:
     return f"{name}-polished"
 
 
-def _searched(
-    problem: Problem,
-    objective: Objective,
-    optimiser: Optimiser,
-    simulation: Simulation,
-    effort: Effort,
-    begun: Mapping[str, Array],
-    progress: Progress | None,
-) -> Mapping[str, State]:
-    """A rough search from every start, one after the other: each uses all cores itself."""
-    rough = optimiser.rough() if effort.rough else None
-    if rough is not None:
-        optimiser, simulation = rough, simulation.rough()
-    return {
-        name: _one_search(problem, objective, optimiser, simulation, effort, name, x, progress)
-        for name, x in begun.items()
-    }
-
-
 def _worth_polishing(good: Mapping[str, State], best: str) -> list[str]:
     """The best search, and those that ended elsewhere at a cost that rough simulations do not tell from its own."""
     chosen, alike = [best], FitSettings().alike
@@ -173,77 +155,80 @@ def _worth_polishing(good: Mapping[str, State], best: str) -> list[str]:
     return chosen
 
 
-def _polished(
-    problem: Problem,
-    objective: Objective,
-    optimiser: Optimiser,
-    simulation: Simulation,
-    effort: Effort,
-    name: str,
-    best: State,
-    progress: Progress | None,
-) -> State:
-    """The end of a rough search, gone on with by fine simulations from where its next step leads."""
-    if optimiser.rough() is None or not effort.rough:
-        return best
-    optimiser, simulation = optimiser.finer(best), simulation.searching()
-    residuals, bounds = problem.residuals(objective, simulation), Bounds(*problem.space.bounds())
+@dataclass(frozen=True)
+class _Searches:
+    """What all searches of a fit have in common."""
 
-    def first() -> Point:
-        """The step's end, unless the rough one is better."""
-        step = optimiser.propose(optimiser.begin(best.best, bounds, objective.squares), bounds)
-        carried = best.best.carried_to(step.x, step.share)
-        ahead = residuals.evaluate(problem.model, problem.space, step.x, carried)
-        if ahead.good and ahead.cost < best.best.cost:
-            return ahead
-        return residuals.evaluate(problem.model, problem.space, best.best.x, best.best.carried)
+    problem: Problem
+    objective: Objective
+    optimiser: Optimiser
+    simulation: Simulation
+    effort: Effort
+    progress: Progress | None
 
-    fine = _one_search(
-        problem, objective, optimiser, simulation, effort, _polish_of(name), best.best.x, progress, first
-    )
-    if not fine.best.good:
-        return replace(best, outcome=FitOutcome.STALLED, message=f"the optimum is a rough one: {fine.message}")
-    return replace(fine, tried=best.tried + 1 + fine.tried, first_cost=best.first_cost)
+    def rough(self, begun: Mapping[str, Array]) -> Mapping[str, State]:
+        """A rough search from every start, one after the other: each uses all cores itself."""
+        optimiser, simulation = self.optimiser.rough() if self.effort.rough else None, self.simulation.rough()
+        if optimiser is None:
+            optimiser, simulation = self.optimiser, self.simulation
+        return {name: self._search(optimiser, simulation, name, x) for name, x in begun.items()}
 
+    def polished(self, name: str, best: State) -> State:
+        """The end of a rough search, gone on with by fine simulations from where its next step leads."""
+        if self.optimiser.rough() is None or not self.effort.rough:
+            return best
+        optimiser, simulation, problem = self.optimiser.finer(best), self.simulation.searching(), self.problem
+        residuals, bounds = problem.residuals(self.objective, simulation), Bounds(*problem.space.bounds())
 
-def _one_search(
-    problem: Problem,
-    objective: Objective,
-    optimiser: Optimiser,
-    simulation: Simulation,
-    effort: Effort,
-    name: str,
-    x: Array,
-    progress: Progress | None,
-    first: Callable[[], Point] | None = None,
-) -> State:
-    folder = None if effort.log is None else effort.log / name
-    residuals, bounds = problem.residuals(objective, simulation), Bounds(*problem.space.bounds())
+        def first() -> Point:
+            """The step's end, unless the rough one is better."""
+            step = optimiser.propose(optimiser.begin(best.best, bounds, self.objective.squares), bounds)
+            carried = best.best.carried_to(step.x, step.share)
+            ahead = residuals.evaluate(problem.model, problem.space, step.x, carried)
+            if ahead.good and ahead.cost < best.best.cost:
+                return ahead
+            return residuals.evaluate(problem.model, problem.space, best.best.x, best.best.carried)
 
-    def evaluate(x: Array, carried: Carried) -> Point:
-        return residuals.evaluate(problem.model, problem.space, x, carried)
+        fine = self._search(optimiser, simulation, _polish_of(name), best.best.x, first)
+        if not fine.best.good:
+            return replace(best, outcome=FitOutcome.STALLED, message=f"the optimum is a rough one: {fine.message}")
+        return replace(fine, tried=best.tried + 1 + fine.tried, first_cost=best.first_cost)
 
-    return search(
-        evaluate,
-        optimiser,
-        problem.space,
-        first or (lambda: first_point(residuals, problem.model, problem.space, optimiser.first(x, bounds))),
-        squares=objective.squares,
-        name=name,
-        checkpoint=None if folder is None else _checkpoint(problem, objective, optimiser, simulation, folder, x),
-        resume=effort.resume,
-        progress=progress,
-    )
+    def _search(
+        self,
+        optimiser: Optimiser,
+        simulation: Simulation,
+        name: str,
+        x: Array,
+        first: Callable[[], Point] | None = None,
+    ) -> State:
+        problem, objective = self.problem, self.objective
+        residuals, bounds = problem.residuals(objective, simulation), Bounds(*problem.space.bounds())
 
+        def evaluate(x: Array, carried: Carried) -> Point:
+            return residuals.evaluate(problem.model, problem.space, x, carried)
 
-def _checkpoint(
-    problem: Problem, objective: Objective, optimiser: Optimiser, simulation: Simulation, folder: Path, start: Array
-) -> Checkpoint:
-    """Of this search only: of no other data, however little they differ."""
-    contents = digest((problem.space, problem.observations, problem.floors, problem.settings))
-    settings = (simulation.solver, simulation.mismatch)
-    identity = repr((problem.model.token, contents, objective.name, optimiser, settings, start.tolist()))
-    return Checkpoint(folder, identity)
+        return search(
+            evaluate,
+            optimiser,
+            problem.space,
+            first or (lambda: first_point(residuals, problem.model, problem.space, optimiser.first(x, bounds))),
+            squares=objective.squares,
+            name=name,
+            checkpoint=self._checkpoint(optimiser, simulation, name, x),
+            resume=self.effort.resume,
+            progress=self.progress,
+        )
+
+    def _checkpoint(self, optimiser: Optimiser, simulation: Simulation, name: str, start: Array) -> Checkpoint | None:
+        """Of this search only: of no other data, however little they differ."""
+        if self.effort.log is None:
+            return None
+        problem = self.problem
+        contents = digest((problem.space, problem.observations, problem.floors, problem.settings))
+        settings = (simulation.solver, simulation.mismatch)
+        own = (problem.model.token, contents, self.objective.name, optimiser, settings, start.tolist())
+        return Checkpoint(self.effort.log / name, repr(own))
 
 
 def _result(

@@ -21,6 +21,7 @@ from pysim.identify.greybox.settings import NoiseSettings
 from pysim.identify.greybox.stepped_sines import stepped_sines, swing, unsettled
 from pysim.identify.greybox.time_log import time_logs
 from pysim.identify.greybox.treatment import Measurements, Treatment
+from pysim.simulate import one_blas_thread
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Model, Note, NoteCode, Record
 from pysim.types.answer import FloorSource, NoiseFloor
 from pysim.types.record_kind import STEPPED_SINE
@@ -137,7 +138,8 @@ def problem(
             if name in (*space.variables, *space.fixed, *(tie.name for tie in space.ties)):
                 raise BadInput(f"fit: data set {one.dataset.name!r} overrides {name}, which is free, tied or fixed")
         context, said = _context(model, one, treatment, _started(model, space))
-        found, more, stated = _observations(context)
+        with one_blas_thread():
+            found, more, stated = _observations(context)
         own = _floors(context, one.noise)
         observations, notes = [*observations, *found], [*notes, *said, *more]
         specified = specified and stated and all(f.source is FloorSource.SPECIFIED for f in own.values())

@@ -17,6 +17,7 @@ from pysim.identify.greybox.residuals import Carried, Point
 from pysim.identify.greybox.runs import Simulation
 from pysim.identify.greybox.search import Evaluate, search
 from pysim.identify.greybox.settings import FitSettings
+from pysim.simulate import one_blas_thread
 from pysim.types import BadInput, Fit
 
 Array = NDArray[np.float64]
@@ -61,7 +62,8 @@ def profile(
     limit = 0.5 * float(chdtri(1, 1 - level))
     walker = _Walker(problem, fit, place, (simulation or Simulation()).as_fine_as(fit.tolerance))
     rows = {fit[name].value: walker.best}
-    ends = tuple(_end(walker, fit, name, side, limit, steps, rows) for side in (-1, 1))
+    with one_blas_thread():
+        ends = tuple(_end(walker, fit, name, side, limit, steps, rows) for side in (-1, 1))
     return Profile(name, np.array(sorted(rows.items())), (ends[0], ends[1]))
 
 

@@ -27,7 +27,6 @@ class Kernel:
         if self.dll.kernel_job_size() != JOB.itemsize:
             raise RuntimeError("the kernel's structures are not those of its header")
         self._integrate = self._function("kernel_integrate", ctypes.c_int, _P, _N)
-        self._integrate_variations = self._function("kernel_integrate_variations", ctypes.c_int, _P, _N)
         self._work = self._function("kernel_work", None, _P, _P)
         self._renew = self._function("kernel_renew", ctypes.c_int, _P)
         self._release = self._function("kernel_release", None, _P)
@@ -50,10 +49,6 @@ class Kernel:
     def integrate(self, job: Array, budget: int) -> int:
         """Go on with a run for at most `budget` accepted steps; RUNNING or how it ended."""
         return int(self._integrate(address(job), budget))
-
-    def integrate_variations(self, job: Array, budget: int) -> int:
-        """The same for a run with its derivatives; RUNNING, EVENT or how it ended."""
-        return int(self._integrate_variations(address(job), budget))
 
     def work(self, tasks: Array, job: Array) -> None:
         """Run the tasks that are left of a pass, (1,) of PASS."""

@@ -5,8 +5,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pysim.types import MeasuredRecord, Record
 from validation.fit_coverage import mass
 from validation.fit_coverage.mass import NOISE, VARIANTS, coloured, counted, finding
+from validation.virtual_pump import measured
 
 
 def test_coloured_noise_has_its_size_and_memory() -> None:
@@ -40,3 +42,12 @@ def test_a_count_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.Mo
     monkeypatch.setattr(mass, "code", lambda: "another")
     assert list(counted(VARIANTS[0], 1, tmp_path)) == [{"m": True}]
     assert seeds == [0, 1, 2, 0]
+
+
+def test_noise_leaves_what_is_known_of_a_log() -> None:
+    data = Record(np.arange(3.0), np.ones((3, 2)), ("alphaCMD", "u"), ("%", "1"))
+    known = MeasuredRecord("wave.txt", "stochastic", "validate", data, initial="rest")
+    noisy = measured([known], 1).records[0]
+    assert noisy.initial == "rest"
+    assert np.array_equal(noisy.data["alphaCMD"], data["alphaCMD"])
+    assert not np.any(noisy.data["u"] == 1.0)

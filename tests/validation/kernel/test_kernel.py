@@ -15,7 +15,9 @@ def made_up(values: np.ndarray, slopes: np.ndarray, left_open: float = 0.0) -> R
     columns, by = values[:, None], slopes[:, None, None]
     names = np.array(["x"])
     nothing = np.full_like(by, left_open)
-    return Reference(TIMES, names, columns, TIMES, np.array(["p"]), by, nothing, np.ones(1), columns, 1e-6)
+    return Reference(
+        TIMES, names, columns, TIMES, np.array(["p"]), by, nothing, np.ones(1), np.array([columns]), np.ones(1)
+    )
 
 
 def test_an_error_counts_over_size_and_nominal_value() -> None:

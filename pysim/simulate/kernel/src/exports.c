@@ -11,7 +11,6 @@ EXPORT int64_t kernel_job_size(void) { return (int64_t)sizeof(Job); }
 EXPORT const RowSums *kernel_row_sums(void) { return row_sums(); }
 EXPORT const RowSums *kernel_plain_row_sums(void) { return plainest_row_sums(); }
 EXPORT int kernel_integrate(Job *job, int64_t budget) { return integrate(job, budget); }
-EXPORT int kernel_integrate_variations(Job *job, int64_t budget) { return integrate_variations(job, budget); }
 EXPORT void kernel_work(Pass *pass, Job *job) { work(pass, job); }
 EXPORT int kernel_renew(Fmu *fmu) { return fmi_renew(fmu); }
 EXPORT int kernel_set_values(const Fmu *fmu, const Access *access, const double *values, void *buffer) {

@@ -1,11 +1,13 @@
 """Logs that begin anywhere, of a swing of many periods: the search starts from rest, a period out of step."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
 import fmu_build
-from pysim.identify.greybox import Parameter, Treatment, fit, problem
+from pysim.identify.greybox import Parameter, Treatment, fit, fit_at, problem
 from pysim.identify.greybox.beginning import settled_initial_states
 from pysim.io import read_model
 from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Model, Record
@@ -31,25 +33,37 @@ def swing(tmp_path_factory: pytest.TempPathFactory) -> Model:
     return read_model(fmu_build.build("Swing", folder / "Swing.fmu", libraries=[folder / "Swing.mo"]))
 
 
-def let_go(x: float, v: float, use: str, seed: int) -> MeasuredRecord:
-    """Ten seconds of the angle, by another integrator."""
-    time = np.arange(0, 10, 0.01)
-    found = solve_ivp(
-        lambda t, y: (y[1], -W2 * np.sin(y[0]) - D * y[1]), (0, 10), (x, v), t_eval=time, rtol=1e-10, atol=1e-10
-    )
-    angle = found.y[0] + NOISE * np.random.default_rng(seed).standard_normal(time.size)
-    record = Record(time, np.column_stack([0 * time, angle]), ("u", "x"), ("1/s2", "rad"))
+def angle(x: float, v: float, time: np.ndarray, push: float = 0.0) -> np.ndarray:
+    """Without noise, by another integrator; pushed by a sine of one radian a second."""
+    return solve_ivp(
+        lambda t, y: (y[1], push * np.sin(t) - W2 * np.sin(y[0]) - D * y[1]),
+        (0, time[-1]), (x, v), t_eval=time, rtol=1e-10, atol=1e-10,
+    ).y[0]  # fmt: skip
+
+
+def measured(time: np.ndarray, pushed: np.ndarray, clean: np.ndarray, use: str, seed: int) -> MeasuredRecord:
+    noisy = clean + NOISE * np.random.default_rng(seed).standard_normal(time.size)
+    record = Record(time, np.column_stack([pushed, noisy]), ("u", "x"), ("1/s2", "rad"))
     return MeasuredRecord(f"{use}-{seed}.txt", "other", use, record)
 
 
-@pytest.fixture(scope="module")
-def data() -> Dataset:
+def let_go(x: float, v: float, use: str, seed: int) -> MeasuredRecord:
+    """Ten seconds."""
+    time = np.arange(0, 10, 0.01)
+    return measured(time, 0 * time, angle(x, v, time), use, seed)
+
+
+def swings(*records: MeasuredRecord) -> Dataset:
     signals = (
         MeasuredSignal("u", "input", "1/s2", "torque", "u"),
         MeasuredSignal("x", "output", "rad", "angle", "x", noise=NOISE),
     )
-    records = (let_go(2.4, 3.0, "fit", 1), let_go(-1.2, 6.0, "fit", 2), let_go(2.0, -5.0, "validate", 3))
     return Dataset("swing", "", "pendulum", signals, records)
+
+
+@pytest.fixture(scope="module")
+def data() -> Dataset:
+    return swings(let_go(2.4, 3.0, "fit", 1), let_go(-1.2, 6.0, "fit", 2), let_go(2.0, -5.0, "validate", 3))
 
 
 def test_a_fit_falls_into_step(swing: Model, data: Dataset) -> None:
@@ -69,3 +83,15 @@ def test_a_log_that_was_not_fitted_falls_into_step(swing: Model, data: Dataset) 
     )
     (states,) = point.carried.states
     assert states == pytest.approx([2.0, -5.0], abs=5e-3)
+
+
+def test_to_find_where_a_log_at_rest_began_costs_one_noise_a_state(swing: Model) -> None:
+    time = np.arange(0, 3, 0.01)
+    truth, pushed = angle(0.0, 0.0, time, push=5.0), 5.0 * np.sin(time)
+    seen = [measured(time, pushed, truth, "validate", seed) for seed in range(40)]
+    known = replace(seen[0], source="known.txt", initial="rest")
+    task = problem(swing, [swings(let_go(2.4, 3.0, "fit", 1), *seen, known)], (Parameter("w2"), Parameter("d")))
+    found = fit_at(task, {"w2": W2, "d": D})
+    cost = {r.source: float(np.sum(((r.simulated["x"] - truth) / NOISE) ** 2)) for r in found.records[1:]}
+    assert cost.pop("known.txt") < 0.5  # of the integration
+    assert 1.0 < np.mean(list(cost.values())) < 3.0  # 2 states; the mean of forty is 2 within 0.3

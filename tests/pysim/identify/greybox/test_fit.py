@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
+from threadpoolctl import threadpool_info, threadpool_limits
 
 from pysim.identify.greybox import (
     FREQUENCY,
@@ -342,3 +343,15 @@ def test_what_cannot_be_fitted_is_refused(lag: Model) -> None:
     free = [Parameter("fragile", start=2.0, lower=1.5, upper=3.0)]
     with pytest.raises(BadInput, match="could not be simulated at any start"):
         fit(problem(lag, data, free))
+
+
+def test_blas_has_one_thread_while_runs_are_simulated_and_its_own_again_behind_them(lag: Model) -> None:
+    def threads() -> set[int]:
+        return {library["num_threads"] for library in threadpool_info() if library["user_api"] == "blas"}
+
+    seen: list[set[int]] = []
+    task = problem(lag, [m.dataset([m.ramp_log(2.0, 0.7, seed=1)])], ["K", "T"])
+    with threadpool_limits(2, "blas"):
+        fit(task, progress=lambda tried: seen.append(threads()))
+        assert seen[0] == {1}
+        assert threads() == {2}

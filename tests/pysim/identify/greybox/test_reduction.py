@@ -1,5 +1,7 @@
 """A long log becomes triangles while it is simulated: the same fit, interval and blocks as from all of its rows."""
 
+import gc
+import weakref
 from typing import Any
 
 import numpy as np
@@ -7,7 +9,9 @@ import pytest
 from numpy.typing import NDArray
 
 from pysim.identify.greybox import NoiseSettings, Parameter, Problem, Simulation, Treatment, fit, problem
+from pysim.identify.greybox.reduction import Reduction
 from pysim.identify.greybox.residuals import Carried, Point
+from pysim.identify.greybox.runs import simulate_runs
 from pysim.simulate import Esdirk, open_runs
 from pysim.types import BadInput, Experiment, Model, Signal
 from tests.pysim.identify.greybox import measurements as m
@@ -96,3 +100,19 @@ def test_rows_are_handed_over_in_order_and_what_is_raised_there_ends_the_pass(la
     rows = np.concatenate(found)
     np.testing.assert_array_equal(rows, np.concatenate([kept.record.values, kept.by_parameter[:, 0]], axis=1))
     np.testing.assert_allclose(rows[:, 0], m.ramp_answer(t, 2.0, 0.7), atol=1e-3)
+
+
+def test_a_pass_is_gone_with_its_last_user(lag: Model) -> None:
+    """What it keeps grows with a log's rows, and the collector of circles does not know how large that is."""
+    model, space, one = lag, task(lag, ROWS - 1).space, task(lag, ROWS - 1).observations[0]
+    reduction = Reduction(one.runs[0].measured, 0, NoiseSettings().blocks)
+    gone = weakref.ref(reduction)
+    gc.disable()
+    try:
+        simulate_runs(model, space, one.runs, space.to_search(space.start), [None], TIGHT, reductions=[reduction])
+        assert reduction.count == ROWS
+        assert reduction.table.size
+        del reduction
+        assert gone() is None
+    finally:
+        gc.enable()
