@@ -40,8 +40,7 @@ class Candidate:
         nuisances: sensor errors that are free.
         problem: the model, its free numbers and the measurements beside it.
         places: effect name -> name ahead of its parameters in the model.
-        transient: whether stepped sines run as the bench ran them, since the model may have no periodic orbit, or more
-            than one.
+        transient: whether stepped sines run as the bench ran them, since the model may have no periodic orbit.
         has_events: whether a law in the model has: its slopes are then those of secants.
         precision: (n, n) of a prior of the free parameters, in the search's numbers; none where None.
     """
@@ -163,14 +162,14 @@ class Models:
         """The model with these effects, in one that has more where there is one.
 
         Args:
-            transient: as models with events or a memory are compared in any case.
+            transient: as models with events are compared in any case.
         Raises:
             BadInput: it cannot be made.
         """
         effects = tuple(effects)
         laws = tuple(map(searched, effects))
         built, has_events = self._with_others(laws), any(map(switches, laws))
-        transient |= self._transient(laws)
+        transient |= has_events or self.all_transient
         model, places = self._variant(built)
         problem = self._problem(built, transient)
         own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
@@ -186,12 +185,9 @@ class Models:
         """
         effects = tuple(effects)
         has_events = any(map(switches, effects))
-        transient = self._transient(effects)
+        transient = has_events or self.all_transient
         _, places = self._variant(effects)
         return Candidate(effects, tuple(nuisances), self._problem(effects, transient), places, transient, has_events)
-
-    def _transient(self, effects: Sequence[Effect]) -> bool:
-        return self.all_transient or any(one.memory or switches(one) for one in effects)
 
     @cached_property
     def all_transient(self) -> bool:

@@ -128,17 +128,12 @@ def _effect(name: str, text: ClassText, said: _Said, library: Libraries, smooth:
             text.full_name,
             tuple(parameters),
             _on_one_line(text.description),
-            _is_true(said, "bypass", text),
+            "bypass" in said and text.text(said["bypass"].value) == "true",
             _law(text),
             smooth,
-            _is_true(said, "memory", text),
         )
     except BadInput as error:
         raise BadInput(f"{file}: {error}") from error
-
-
-def _is_true(said: _Said, name: str, text: ClassText) -> bool:
-    return name in said and text.text(said[name].value) == "true"
 
 
 def _law(text: ClassText) -> str:

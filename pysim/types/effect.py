@@ -66,7 +66,6 @@ class Effect:
         bypass: whether off is a limit that its equations do not reach; the slot's own filling stands for it then.
         law: its equations, as the class writes them.
         smooth: the same effect, written without events, which a search takes in its place; None where it has none.
-        memory: whether it stays where it was left, as a play does: a sine then has more than one steady state.
     Raises:
         BadInput: no strength, a `smooth` with other parameters or another slot, or two parameters of one name.
     """
@@ -79,7 +78,6 @@ class Effect:
     bypass: bool = False
     law: str = ""
     smooth: Effect | None = None
-    memory: bool = False
 
     def __post_init__(self) -> None:
         names = [parameter.name for parameter in self.parameters]

@@ -8,7 +8,7 @@ initial equation
 equation
   y_t = max(s_t, 0)*max((s - y - d)/w + 1, 0) + min(s_t, 0)*max((y - s - d)/w + 1, 0);
   der(y) = y_t;
-  annotation(__HydraulicTestBench(effect="linkage.backlash", slot="linkage", memory=true), Documentation(info="<html>
+  annotation(__HydraulicTestBench(effect="linkage.backlash", slot="linkage"), Documentation(info="<html>
 <p>The plate's end y stays where it is while the piston s moves freely by 2d, and goes with it, at its speed, once
 it is met: over the way w its speed rises from nothing to the piston's, so that no event is needed. The feedback sees
 the angle behind the play. At the start the piston stands in the middle of it.</p>

@@ -5,7 +5,7 @@ model ValveHysteresis "Play in the spool's command (valve.hysteresis)"
   constant Types.Duration T_h = 1e-5 "How fast the command is taken along";
 equation
   der(y) = (max(s - h - y, 0) + min(s + h - y, 0))/T_h;
-  annotation(__HydraulicTestBench(effect="valve.hysteresis", slot="spoolCommand", bypass=true, memory=true),
+  annotation(__HydraulicTestBench(effect="valve.hysteresis", slot="spoolCommand", bypass=true),
     Documentation(info="<html>
 <p>The command behind the play stays where it is while the card's command moves freely by 2h. The card's inner loop
 sees the true spool. The command has no rate that could be passed on, so it is taken along with the lag

@@ -6,9 +6,7 @@ package Effects "Physical effects that the base model lacks, each a filling for 
 slot of the model it fills. Its parameters say the rest: <code>min</code> and <code>max</code> are their bounds,
 <code>nominal</code> a usual size. A parameter that is 0 as declared is a strength, and 0 is off: the equations are then
 exactly those of the base model. Where off is a singular limit (a lag of 0 s) the annotation says
-<code>bypass=true</code>: the neutral filling stands for off, and the effect tends to it as it shrinks.
-An effect that stays where it was left, as a play does, says <code>memory=true</code>: under a sine the model may then
-have more than one steady state.</p>
+<code>bypass=true</code>: the neutral filling stands for off, and the effect tends to it as it shrinks.</p>
 <p><code>inverse=\"u_max\"</code> at a parameter says that it is one over the quantity people speak of;
 <code>limits=\"u\"</code> names the class' variable whose size that quantity limits.</p>
 <p>The first eighteen are for the slots of the pump's control, the last six for those of

@@ -36,7 +36,7 @@ package Drive "A positioning drive; model, type and end in a text do not matter"
         z = {1, 2};
       end if;
       annotation(Documentation(info="<html>annotation(x=1); end Bearing;</html>"),
-        __HydraulicTestBench(effect="drive.bearing", slot="friction", bypass=true, memory=true));
+        __HydraulicTestBench(effect="drive.bearing", slot="friction", bypass=true));
     end Bearing;
     model Plain extends PartialFriction; equation tau = 0; end Plain;
     model Two "Sum"
@@ -58,7 +58,6 @@ def test_a_users_library_in_one_file(tmp_path: Path) -> None:
     assert (effect.name, effect.slot, effect.class_name) == ("drive.bearing", "friction", "Drive.Effects.Bearing")
     assert effect.description == 'Dry friction of the "bearing"'
     assert effect.bypass
-    assert effect.memory
     assert effect.law.startswith("tau = -T_c*tanh(s*w);\nif w > 0 then\n")
     assert effect.law.endswith("\n  z = {1, 2};\nend if;")
     torque, steepness, on, unused = effect.parameters
