@@ -215,6 +215,15 @@ class Desk:
         self.project.change(added=())
         self.changed()
 
+    def keep(self, found: Mapping[str, float]) -> None:
+        """Begin at what a search has found, from now on.
+
+        Raises:
+            BadInput: work is running.
+        """
+        self.set_values({**self.project.values(), **found})
+        self.last = None
+
     def bring_back(self, earlier: Path) -> None:
         """Take a data set that others took the place of; the one that is there now becomes an earlier one.
 

@@ -115,6 +115,11 @@ class Table(Element, component=str(_STATIC / "table.js")):
         if on_tick is not None:
             self.on("tick", lambda event: on_tick(int(event.args["row"]), bool(event.args["on"])))
 
+    def show(self, rows: Sequence[Sequence[Any]]) -> None:
+        """Other rows."""
+        self._props["rows"] = [list(row) for row in rows]
+        self.update()
+
     def pick(self, row: int) -> None:
         """Mark a row."""
         self._props["picked"] = row

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from pysim.diagnosis.refit import FinalFit
-from pysim.types import ErrorStep, GainTest, ProgressEvent
+from pysim.types import ErrorStep, GainTest, ProgressEvent, Trial
 
 Say = Callable[[ProgressEvent], None]
 
@@ -30,6 +30,10 @@ class Progress:
         """A new stage begins, in a few words."""
         self.now = what
         self.tell(ProgressEvent(what))
+
+    def tried(self, trial: Trial) -> None:
+        """A point of a search."""
+        self.tell(ProgressEvent(self.now, trial=trial))
 
     def learned(self, model: FinalFit, test: GainTest) -> None:
         """A model was kept for now."""

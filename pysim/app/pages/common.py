@@ -66,7 +66,11 @@ def ended(desk: Desk) -> None:
     else:
         with box("note row end"):
             text("span", f"{job.work.title} was stopped; what it had found is kept.")
-            button("Go on", lambda: attempt(lambda: desk.start(job.work)), "small", off=busy(desk))
+            with box("row"):
+                if (best := job.best) is not None:
+                    words = f"Keep its best values ({best['error']:.3g} × noise)"
+                    button(words, lambda: attempt(lambda: desk.keep(best["values"])), "small", off=busy(desk))
+                button("Go on", lambda: attempt(lambda: desk.start(job.work)), "small", off=busy(desk))
 
 
 def doubts(answer: Answer) -> None:

@@ -8,6 +8,7 @@ from typing import Any
 from pysim.app.desk import Desk
 from pysim.app.pages.candidates import effect_row
 from pysim.app.pages.common import busy, ended, nothing, start
+from pysim.app.pages.moving import moving
 from pysim.app.parts import Chart, Drawing, box, button, card, live, note, text
 from pysim.present.diagnosis.figures.law import law_chart
 
@@ -18,6 +19,7 @@ def locate_page(desk: Desk) -> None:
     """Where something is missing."""
     chosen: dict[str, str] = {}
     live(lambda: desk.version, lambda: _build(desk, chosen), "gap")
+    moving(desk)
     live(lambda: (desk.version, chosen.get("slot")), lambda: _below(desk, chosen), "gap")
 
 

@@ -87,12 +87,11 @@ def test_before_anything_was_compared_the_log_alone_is_shown() -> None:
     assert np.array_equal(overlay.lines[0].time, np.arange(2.0))
 
 
-def test_the_picture_of_the_error_shows_every_error_and_what_is_being_worked_on() -> None:
+def test_the_picture_of_the_error_shows_every_error() -> None:
     steps = present.data(found_offset())["error"]
-    figure = error_chart([read_step(step) for step in steps], doing="<b>screening</b>")  # type: ignore[attr-defined]
+    figure = error_chart([read_step(step) for step in steps])  # type: ignore[attr-defined]
     told = [note["text"] for note in figure["layout"]["annotations"]]
     assert told[:6] == ["<b>8.10</b>", "<b>8.00</b>", "<b>4.20</b>", "<b>3.20</b>", "<b>1.01</b>", "<b>1.00</b>"]
-    assert figure["layout"]["xaxis"]["ticktext"][-1] == "<i>&lt;b&gt;screening&lt;/b&gt; …</i>"
 
 
 def test_parameters_stand_between_their_bounds() -> None:
