@@ -18,9 +18,10 @@ from pysim.app.project import Project
 from pysim.app.upload import Batch, Limits
 from pysim.app.worker import TASKS, Ended
 from pysim.identify.data_check import DataCheck, check_dataset
-from pysim.io import read_dataset_partly
+from pysim.io import read_dataset_partly, write_file
 from pysim.types import BadInput
-from pysim.workflow import command_line
+from pysim.workflow import LawPlace, class_name_of, command_line, effect_class
+from pysim.workflow.own_law import Range
 
 _BUILD_LIMIT = 1200.0  # s: the 900 that fmu_build.pack.compiler grants the first compilation, and more than any takes
 _LATE = (
@@ -193,6 +194,23 @@ class Desk:
             self.changed()
         else:
             self.start(adding(self.project, added))
+
+    async def add_law(self, name: str, place: LawPlace, law: str, ranges: Mapping[str, Range]) -> None:
+        """Make a law an effect of the project, and try it beside those that the model has.
+
+        Raises:
+            BadInput: work is running, what a law may not hold, or another law has that name.
+        """
+        self._free_to_change()
+        content = effect_class(name, place.slot, law, ranges, place.libraries)
+        file = self.project.laws / f"{class_name_of(name)}.mo"
+        if file.is_file() and file.read_text(encoding="utf-8") != content:
+            raise BadInput(f"there is another law {name} already; give this one another name")
+        file.parent.mkdir(exist_ok=True)
+        write_file(file, content)
+        model = await asyncio.wrap_future(self.runner.worker.ask("model"))
+        self.model, self.sketches = model, {str(one["name"]): one["sketch"] for one in model["effects"]}
+        self.add(name)
 
     def change(self, **settings: Any) -> None:
         """Choose something else, of what results depend on.

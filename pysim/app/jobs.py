@@ -18,6 +18,7 @@ from pysim.app.project import VALUES, Project
 from pysim.app.worker import TASKS, Ended, Worker
 from pysim.io import write_file
 from pysim.types import BadInput
+from pysim.workflow import class_name_of
 
 RUNNING, DONE, STOPPED, FAILED = "running", "done", "stopped", "failed"
 _JOB = "job.json"
@@ -118,12 +119,18 @@ def adding(project: Project, effects: Sequence[str]) -> Work:
         BadInput: as `works`.
     """
     base = works(project)["diagnose"].words[1:]
-    own = base[: base.index("--json")]
+    own = [*base[: base.index("--json")], *(word for one in laws_of(project, effects) for word in ("--library", one))]
     safe = "+".join("".join(c if c.isalnum() or c in "._-" else "_" for c in name) for name in effects)
     chain = hashlib.sha256(repr(tuple(effects)).encode()).hexdigest()[:8]  # the names alone may be cut, or look alike
     title = f"Add {effects[-1]}"
     words = [*own, *(word for name in effects for word in ("--effects", name))]
     return replace(_work("add", title, words, f"add-{safe[:80]}-{chain}"), effects=tuple(effects))
+
+
+def laws_of(project: Project, effects: Sequence[str]) -> list[str]:
+    """Libraries of the effects that were written on the page, as they are seen from the project."""
+    files = [project.laws / f"{class_name_of(name)}.mo" for name in effects]
+    return [file.relative_to(project.folder).as_posix() for file in files if file.is_file()]
 
 
 def _work(command: str, title: str, words: Sequence[str], name: str = "") -> Work:

@@ -18,7 +18,7 @@ from pysim.io import read_toml, toml_key, toml_table, write_file
 from pysim.types import BadInput
 
 _SETTINGS, VALUES = "project.toml", "parameters.toml"
-_OWN = (_SETTINGS, VALUES, "data", "model", "earlier", "uploads", "results", LOCK)
+_OWN = (_SETTINGS, VALUES, "data", "model", "laws", "earlier", "uploads", "results", LOCK)
 LOOKS = ("auto", "light", "dark")
 
 
@@ -78,6 +78,11 @@ class Project:
     def models(self) -> Path:
         """Where the user's models and libraries are."""
         return self.folder / "model"
+
+    @property
+    def laws(self) -> Path:
+        """Where the classes of laws are that were written on the page; each is a library of one effect."""
+        return self.folder / "laws"
 
     @property
     def uploads(self) -> Path:

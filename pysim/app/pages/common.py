@@ -99,9 +99,9 @@ def segments(options: list[tuple[str, str]], chosen: str, pick: Callable[[str], 
             one._props["aria-pressed"] = "true" if key == chosen else "false"
 
 
-def amount(value: Any, put: Callable[[float | None], Any], label: str) -> None:
+def amount(value: Any, put: Callable[[float | None], Any], label: str, *, signed: bool = False) -> None:
     """A number that may be left empty."""
-    field = ui.element("input").props("type=number step=any min=0")
+    field = ui.element("input").props(f"type=number step=any {'' if signed else 'min=0'}")
     field._props["aria-label"], field._props["value"] = label, "" if value is None else value
 
     def changed(written: str) -> None:
