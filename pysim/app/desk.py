@@ -5,7 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +15,13 @@ from pysim.app.answers import Answers
 from pysim.app.history import History
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
 from pysim.app.project import Project
+from pysim.app.records import raw_of
 from pysim.app.upload import Batch, Limits
 from pysim.app.worker import TASKS, Ended
-from pysim.identify.data_check import DataCheck, check_dataset
-from pysim.io import read_dataset_partly, write_file
-from pysim.types import BadInput
+from pysim.identify.data_check import DataCheck, FindingCode, check_dataset
+from pysim.io import read_described, write_file
+from pysim.io.prepare import prepared
+from pysim.types import BadInput, Dataset, MeasuredRecord, Record
 from pysim.workflow import LawPlace, class_name_of, command_line, effect_class
 from pysim.workflow.own_law import Range
 
@@ -38,11 +40,19 @@ class Loaded:
         check: what it holds; None where the description itself is wrong, or is not there.
         refused: file and reason.
         trouble: why there is no check.
+        raw: its logs before they were prepared; steps: how many follow.
     """
 
     check: DataCheck | None
     refused: tuple[tuple[str, str], ...] = ()
     trouble: str = ""
+    raw: Dataset | None = None
+    steps: int = 0
+
+    @property
+    def empty_cells(self) -> bool:
+        """Whether a log has cells without a number still."""
+        return self.check is not None and any(one.code is FindingCode.EMPTY for one in self.check.findings)
 
 
 @dataclass
@@ -195,6 +205,14 @@ class Desk:
         else:
             self.start(adding(self.project, added))
 
+    async def check(self) -> None:
+        """Look at the logs beside the model's answers: signs, units, and columns that are swapped."""
+        self._free_to_change()
+        check = await asyncio.wrap_future(self.runner.worker.ask("checked"))
+        if self.loaded is not None:
+            self.loaded = replace(self.loaded, check=check)
+            self.changed()
+
     async def add_law(self, name: str, place: LawPlace, law: str, ranges: Mapping[str, Range]) -> None:
         """Make a law an effect of the project, and try it beside those that the model has.
 
@@ -241,6 +259,10 @@ class Desk:
         """
         self.set_values({**self.project.values(), **found})
         self.last = None
+
+    def raw_of(self, log: MeasuredRecord) -> Record | None:
+        """A log before it was prepared; None where that is not known."""
+        return None if self.loaded is None or self.loaded.raw is None else raw_of(self.loaded.raw, log)
 
     def bring_back(self, earlier: Path) -> None:
         """Take a data set that others took the place of; the one that is there now becomes an earlier one.
@@ -346,8 +368,8 @@ def load(project: Project) -> Loaded | None:
     if not project.description.is_file():
         return Loaded(None)
     try:
-        dataset, refused = read_dataset_partly(project.data)
-        short = tuple((file, why.replace(f"{project.data}{os.sep}", "")) for file, why in refused)
-        return Loaded(check_dataset(dataset), short)
+        found = read_described(project.data, partly=True)
+        short = tuple((file, why.replace(f"{project.data}{os.sep}", "")) for file, why in found.refused)
+        return Loaded(check_dataset(prepared(found.raw, found.steps)), short, raw=found.raw, steps=len(found.steps))
     except BadInput as error:
         return Loaded(None, trouble=str(error).replace(f"{project.data}{os.sep}", ""))

@@ -29,6 +29,7 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         label: what is to be seen, for those who cannot see it.
         series: where the samples of a window come from: `url`, `traces`, `span` (s, s) and `most` points.
         on_pick: receives the place that was clicked: x, y, curve, index.
+        on_range: receives the window that is shown, None where that is all; of a chart with `series`.
         height: px.
     """
 
@@ -39,6 +40,7 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         *,
         series: Mapping[str, Any] | None = None,
         on_pick: Callable[[dict[str, Any]], Any] | None = None,
+        on_range: Callable[[tuple[float, float] | None], Any] | None = None,
         height: int = 360,
     ) -> None:
         super().__init__()
@@ -47,6 +49,8 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         self.style(f"height: {height}px")
         if on_pick is not None:
             self.on("pick", lambda event: on_pick(event.args))
+        if on_range is not None:
+            self.on("range", lambda event: on_range(event.args and (float(event.args[0]), float(event.args[1]))))
 
     def show(self, figure: Mapping[str, Any], label: str) -> None:
         """Another figure in its place."""

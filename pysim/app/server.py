@@ -281,12 +281,15 @@ def _choose(project: Project, adopted: Adopted) -> None:
 
 
 def overlay_of(desk: Desk, of: str, record: int) -> Overlay | None:
-    """A record of the data set (`of` is "data") or beside the models of a result; None where there is none such."""
+    """A record of the data set (`of` is "data" or "prepared"), or beside the models of a result; None without one."""
     check = desk.loaded.check if desk.loaded else None
     if check is None or not 0 <= record < len(check.dataset.logs()):
         return None
+    log = check.dataset.logs()[record]
     if of == "data":
-        return measured_overlay(check.dataset.logs()[record])
+        return measured_overlay(log)
+    if of == "prepared":
+        return measured_overlay(log, desk.raw_of(log))
     answer = next((one for one in desk.answers.all if one.job.work.name == of), None)
     try:
         return None if answer is None else compared_overlay(answer, record)

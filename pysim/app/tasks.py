@@ -14,8 +14,11 @@ from pysim.app.jobs import ANSWER, EVENTS, OUTPUT, RECORDS, REPORT, Work, laws_o
 from pysim.app.project import Project
 from pysim.app.worker import said_in
 from pysim.diagnosis import Session, Settings, add, compare, diagnose, learn, rank
-from pysim.io import in_model_units, write_file, write_stages
+from pysim.identify.data_check import DataCheck
+from pysim.io import in_model_units, read_described, write_file, write_stages
+from pysim.nouns.data import Data
 from pysim.nouns.example import EXAMPLES, example_folder
+from pysim.nouns.model import model as opened_model
 from pysim.present import data, write_report
 from pysim.present.diagnosis import Diagnosed, files
 from pysim.present.diagnosis.words import added_sentence, comparison_sentence, learned_sentence, ranking_sentence
@@ -67,6 +70,12 @@ class Tasks:
         model = model_of(settings.model, libraries)
         known = inside(model, libraries)
         return dict(data(Inside(model, known.class_name, known.slots, known.taken, tuple(libraries))))
+
+    def checked(self) -> DataCheck:
+        """What is to be looked at in the logs as they are prepared, beside the model's answers to their inputs."""
+        settings, found = self._project.settings(), read_described(Path("data"), partly=True)
+        data = Data(found.raw, found.raw, (), found.units, found.units, {}).after(*found.steps)
+        return data.check(opened_model(settings.model, library=settings.libraries)).result
 
     def example(self, name: str) -> None:
         """Take the logs, the library and the model of an example into the project."""

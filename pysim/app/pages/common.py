@@ -46,6 +46,8 @@ def busy(desk: Desk) -> str:
         return "Drop a data set first"
     if desk.loaded is not None and desk.loaded.refused:
         return "Some logs were refused; mend them or leave them out on the page Data"
+    if desk.loaded is not None and desk.loaded.empty_cells:
+        return "Some cells are empty; fill them, or cut them out, on the page Prepare"
     if not desk.project.settings().model:
         return "Name a model first"
     return "The model is being built" if desk.model_busy else desk.model_trouble and "The model cannot be used"

@@ -260,7 +260,7 @@ def test_a_word_that_is_no_step_is_refused(word: str, message: str) -> None:
 def test_a_misspelt_step_is_refused() -> None:
     with pytest.raises(BadInput, match="place: step = 'flop' is not known; use one of trim, "):
         step_of(Section("place", {"step": "flop"}))
-    with pytest.raises(BadInput, match="place: the key 'signal' is not known; use step, signals"):
+    with pytest.raises(BadInput, match="place: the key 'signal' is not known; use step, off, signals"):
         step_of(Section("place", {"step": "flip", "signal": "x"}))
     with pytest.raises(BadInput, match="hz is missing"):
         step_of(Section("place", {"step": "resample"}))
