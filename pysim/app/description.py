@@ -10,7 +10,7 @@ from typing import Any
 from pysim.io import log_source, names_its_columns, read_described, read_toml, toml_key, toml_table, write_file
 from pysim.io.prepare import HoldOut, prepared
 from pysim.types import BadInput, Dataset
-from pysim.types.record_kind import STEPPED_SINE
+from pysim.types.record_kind import RESPONSE_TABLE, STEPPED_SINE
 
 
 def read_description(path: Path) -> dict[str, Any]:
@@ -100,6 +100,29 @@ def moved(steps: Sequence[Mapping[str, Any]], number: int, by: int) -> list[Mapp
     if by:
         others.insert(number + by, steps[number])
     return others
+
+
+BEGINS = {"near rest": None, "at rest": "rest", "anywhere, estimated": "estimate"}  # words, and `initial` of a record
+
+
+def begins(content: Mapping[str, Any]) -> str:
+    """How the logs begin, one of BEGINS; "" where they differ."""
+    found = {record.get("initial") for record in content["records"]}
+    return next((words for words, one in BEGINS.items() if found == {one}), "")
+
+
+def begin_logs(content: dict[str, Any], words: str) -> None:
+    """Let all logs over time begin so.
+
+    Args:
+        content: of a dataset.toml; changed.
+        words: one of BEGINS.
+    """
+    for record in content["records"]:
+        if record.get("kind") != RESPONSE_TABLE.name:
+            record.pop("initial", None)
+            if BEGINS[words] is not None:
+                record["initial"] = BEGINS[words]
 
 
 def leave_out(content: dict[str, Any], sources: Collection[str]) -> None:

@@ -11,7 +11,8 @@ from typing import Any
 
 from nicegui import run
 
-from pysim.app.answers import Answers
+from pysim.app.answers import Answer, Answers
+from pysim.app.disk import remove
 from pysim.app.history import History
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
 from pysim.app.project import Project
@@ -279,6 +280,23 @@ class Desk:
     def _free_to_change(self) -> None:
         if self.runner.running is not None:
             raise BadInput("wait until the running work has ended, or stop it")
+
+    def choose(self, added: tuple[str, ...]) -> None:
+        """Show the model with other effects, of which there is a result."""
+        self.project.change(added=added)
+        self.changed()
+
+    def delete(self, answer: Answer) -> None:
+        """Remove a result with all its files.
+
+        Raises:
+            BadInput: work is running, or another program has a file of it.
+        """
+        self._free_to_change()
+        remove(answer.folder, self.project.uploads)
+        if self.project.settings().added == answer.added:
+            self.project.change(added=())
+        self.changed()
 
     def undo(self) -> None:
         """Without the last effect."""

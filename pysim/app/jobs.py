@@ -102,6 +102,7 @@ def works(project: Project) -> dict[str, Work]:
         raise BadInput("no data set yet; drop one on the page Data")
     more = [word for library in settings.libraries for word in ("--library", library)]
     more += ["--free", ",".join(settings.free)] if settings.free else []
+    more += [word for name, (low, high) in settings.ranges.items() for word in ("--bounds", f"{name}={low!r}:{high!r}")]
     more += ["--parameters", VALUES] if project.values() else []
     behind = ["data", "--model", settings.model, *more]
     return {

@@ -70,6 +70,7 @@ class Sliders(Element, component=str(_STATIC / "sliders.js")):
         rows: `name`, `about`, `value`, `unit`, `min`, `max`, `slides` (whether it has both), and `fitted`.
         on_move: gets the name, the value, and whether it was let go.
         on_fit: gets the name, and whether a fit may change it.
+        on_bound: gets the name, "min" or "max", and the value.
     """
 
     def __init__(
@@ -77,11 +78,13 @@ class Sliders(Element, component=str(_STATIC / "sliders.js")):
         rows: Sequence[Mapping[str, Any]],
         on_move: Callable[[str, float, bool], Any],
         on_fit: Callable[[str, bool], Any],
+        on_bound: Callable[[str, str, float], Any],
     ) -> None:
         super().__init__()
         self._props["rows"] = list(rows)
         self.on("move", lambda event: on_move(*(event.args[key] for key in ("name", "value", "done"))))
         self.on("fit", lambda event: on_fit(event.args["name"], event.args["on"]))
+        self.on("bound", lambda event: on_bound(*(event.args[key] for key in ("name", "end", "value"))))
 
     def show(self, rows: Sequence[Mapping[str, Any]]) -> None:
         """Other values."""

@@ -21,6 +21,7 @@ from pysim.app.disk import disk_trouble
 from pysim.app.guard import Guard, host_names
 from pysim.app.jobs import Runner, settle
 from pysim.app.lock import held
+from pysim.app.notebook import notebook
 from pysim.app.pages.shell import shell
 from pysim.app.project import Project
 from pysim.app.recent import remember
@@ -257,6 +258,10 @@ def _routes(desk: Desk) -> None:
             return PlainTextResponse("no such record", 404)
         x, y, exact = overlay.samples(begin, end, min(max(most, 4), 20000))
         return Response(json.dumps({"x": x, "y": y, "exact": exact}), media_type="application/json")
+
+    @app.get("/notebook")
+    def same_steps() -> Response:
+        return Response(notebook(desk.project), media_type="application/x-ipynb+json")
 
     @app.get("/result/{name}/{file:path}")
     async def result(name: str, file: str) -> Response:

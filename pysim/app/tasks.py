@@ -136,7 +136,7 @@ class Tasks:
             measured = data_of(Path("data"))
             self._parts = session_parts(
                 model_of(settings.model, libraries), measured, libraries=libraries, free=settings.free,
-                bounds={}, values=self._project.values(), reference_hz=reference_of(measured.responses()),
+                bounds=settings.ranges, values=self._project.values(), reference_hz=reference_of(measured.responses()),
             )  # fmt: skip
             self._found = self._found if self._of == now else {}
             self._of = now

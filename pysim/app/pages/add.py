@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
+from string import ascii_uppercase
 from typing import Any
 
 from pysim.app.answers import Answer, history
@@ -60,6 +62,7 @@ def _below(desk: Desk) -> None:
             nothing("Nothing was fitted yet", "The error begins with the model as it is.")
         return
     _error(history(answer, settings.added))
+    _branches(desk)
     _criteria(answer, settings.added)
     _parameters(answer)
     for one in answer.data["notes"]:
@@ -72,6 +75,36 @@ def _error(steps: Sequence[Mapping[str, Any]]) -> None:
         told = "; ".join(f"{s['step']} {s['fit'] or s['validate'] or 0:.2f}" for s in steps)
         figure = error_chart([read_step(s) for s in steps])
         Chart(figure, f"Error over noise, step by step: {told}", height=350)
+
+
+def _branches(desk: Desk) -> None:
+    """Models that were tried, side by side: any of them can be shown again, or deleted."""
+    found, now = desk.answers.branches, desk.project.settings().added
+    if len(found) < 2:
+        return
+    with card("Branches"):
+        text("p", "Each model that was tried, and what it leaves in fitted and in held-out logs.", "small")
+        first = next(iter(found.values()))
+        ends = [one.data["error"][-1] | {"step": " + ".join(added)} for added, one in found.items()]
+        figure = error_chart([read_step(s) for s in [*history(first, ())[-1:], *ends]])
+        Chart(figure, f"Error over noise of {len(found)} branches", height=300)
+        with box("tight"):
+            for letter, (added, one) in zip(ascii_uppercase, found.items(), strict=False):
+                with box("row"):
+                    text("b", letter)
+                    for name in added:
+                        text("span", f"+ {name}", "chip")
+                    if added == now:
+                        text("span", "shown", "chip good")
+                    else:
+                        press = button("Show", partial(desk.choose, added), "small", off=busy(desk))
+                        press._props["aria-label"] = f"show {' + '.join(added)}"
+                    press = button("Delete", partial(_delete, desk, one), "small quiet", off=busy(desk))
+                    press._props["aria-label"] = f"delete {' + '.join(added)}"
+
+
+def _delete(desk: Desk, answer: Answer) -> None:
+    attempt(lambda: desk.delete(answer))
 
 
 def _criteria(answer: Answer, added: Sequence[str]) -> None:
