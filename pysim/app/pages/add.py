@@ -33,7 +33,7 @@ def _top(desk: Desk) -> None:
     current = answer is not None and answer.added == settings.added  # what was undone is not what is shown
     head("Watch the error fall", str(answer.data["reason"]) if answer is not None and current else "")
     ended(desk)
-    if answer is None and running is None:
+    if desk.answers.verdict is None and not settings.added and running is None:
         with box("row"):
             button("Find what is missing", lambda: start(desk, lambda: desk.work("diagnose")), "main", off=busy(desk))
             text("span", "or try a candidate on the page Candidates", "small")

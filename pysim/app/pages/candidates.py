@@ -110,7 +110,7 @@ def _named(effect: Mapping[str, Any], *, tied: bool = False) -> None:
 def _trying(desk: Desk, name: str) -> None:
     if name in desk.project.settings().added:
         text("span", "in the model", "chip good")
-    else:
+    elif any(one["name"] == name for one in (desk.model or {}).get("effects", [])):  # a sensor's error is none of them
         button("Try", lambda: _try(desk, name), "small", off=busy(desk))
 
 

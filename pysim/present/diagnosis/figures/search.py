@@ -31,7 +31,7 @@ def left_over(trials: Sequence[Mapping[str, Any]]) -> list[tuple[str, float]]:
 
 
 def search_chart(trials: Sequence[Mapping[str, Any]]) -> Chart:
-    """A line per model over the points tried, the best one and the base model told apart from all others.
+    """A line per model over the points tried, the best one and the base model set apart from all others.
 
     Args:
         trials: as of `by_model`.
