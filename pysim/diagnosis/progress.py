@@ -23,7 +23,7 @@ class Progress:
 
     tell: Say
     seconds: dict[str, float] = field(default_factory=dict)
-    now: str = ""
+    now: str = "simulating the model"
     since: float = field(default_factory=time.monotonic)
 
     def doing(self, what: str) -> None:
