@@ -208,7 +208,7 @@ class Search:
         Raises:
             BadInput: it cannot be simulated.
         """
-        candidate = self.models.of(())
+        candidate = replace(self.models.of(()), watch=None)  # it is no point of a search
         first = begin(candidate, {}, self.fine)
         if not first.good:
             raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {first.point.failure}")

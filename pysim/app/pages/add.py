@@ -30,7 +30,7 @@ def add_page(desk: Desk) -> None:
 def _top(desk: Desk) -> None:
     settings, running = desk.project.settings(), desk.runner.running
     answer = desk.answers.with_effects(settings.added)
-    current = answer is not None and answer.added == settings.added  # what was undone is not what is shown
+    current = answer is not None and answer.added == settings.added and running is None  # not what was undone
     head("Watch the error fall", str(answer.data["reason"]) if answer is not None and current else "")
     ended(desk)
     if desk.answers.verdict is None and not settings.added and running is None:
@@ -38,7 +38,8 @@ def _top(desk: Desk) -> None:
             button("Find what is missing", lambda: start(desk, lambda: desk.work("diagnose")), "main", off=busy(desk))
             text("span", "or try a candidate on the page Candidates", "small")
     if answer is not None:
-        doubts(answer)
+        if running is None:
+            doubts(answer)
         _chain(desk, settings.added)
 
 

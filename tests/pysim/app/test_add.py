@@ -82,7 +82,7 @@ def test_a_curve_and_its_numbers_move_while_the_search_runs(tab: Tab, project: P
 
 
 def test_a_stop_keeps_the_best_and_undo_takes_it_back(tab: Tab, project: Path) -> None:
-    for error in (63.8, 20.3, 30.1):
+    for error in (63.8, 20.3, 20.3):
         tell(project, error)
     tell(project, 0.97, "toy.friction")
     tab.page.reload()  # in the middle

@@ -27,3 +27,8 @@ def test_before_anything_is_added_the_base_model_is_the_best() -> None:
     (line,) = search_chart(TRIALS[:2])["data"]
     assert (line["name"], line["line"]["color"]) == ("base model", "@final")
     assert search_chart([])["data"] == []
+
+
+def test_a_new_search_of_a_model_begins_a_new_line() -> None:
+    (line,) = search_chart([{"names": (), "error": error} for error in (8.0, 4.0, 9.0, 3.0)])["data"]
+    assert (line["x"], line["y"]) == ([1, 2, 3, 3, 4], [8.0, 4.0, None, 9.0, 3.0])

@@ -10,6 +10,7 @@ from pysim.present.diagnosis.figures.error import TICKS
 
 _BASE = "base model"
 _FEW = 12  # points, below which each has a number on the axis
+_RISES = 1.001  # times the error before: more than what a finer integration changes
 _ROOM = (0.8, 1.25)  # of the axis, below the least and above the largest value
 
 
@@ -42,7 +43,7 @@ def search_chart(trials: Sequence[Mapping[str, Any]]) -> Chart:
     lines = []
     for name in sorted(found, key=lambda one: one in looks):  # those above lie over the others
         colour, width = looks.get(name, ("@prior", 1.2))
-        x, y = [number for number, _ in found[name]], [error for _, error in found[name]]
+        x, y = _searches(found[name])
         lines.append(
             {"x": x, "y": y, "mode": "lines+markers", "name": plain(name), "showlegend": name in looks}
             | {"line": {"color": colour, "width": width}, "marker": {"color": colour, "size": 2 + 2 * width}}
@@ -56,3 +57,14 @@ def search_chart(trials: Sequence[Mapping[str, Any]]) -> Chart:
         yaxis=size_axis("Residual over noise (–)", low, high, [t for t in TICKS if low <= t <= high]),
         shapes=[level_line(1.0, "@quiet", 1.0)],
     )
+
+
+def _searches(points: Sequence[tuple[int, float]]) -> tuple[list[int], list[float | None]]:
+    """Numbers and errors with a gap ahead of each new search: within one the best error never rises."""
+    x: list[int] = []
+    y: list[float | None] = []
+    for (number, error), (_, before) in zip(points, [points[0], *points], strict=False):
+        if error > _RISES * before:
+            x, y = [*x, number], [*y, None]
+        x, y = [*x, number], [*y, error]
+    return x, y
