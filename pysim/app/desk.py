@@ -65,7 +65,6 @@ class Desk:
         doing: what goes on that is no job, in words; "" where nothing does.
         trouble: why the last of it failed.
         taking: whether a drop is being put into the project.
-        sketches: of the laws of the effects that fit.
         draft: what was chosen so far for logs that nobody has described.
         version: changes with everything that a page shows, but for what a running job tells;
         beat: changes with that too.
@@ -81,7 +80,6 @@ class Desk:
     beat: int = 0
     loaded: Loaded | None = None
     model: Mapping[str, Any] | None = None
-    sketches: Mapping[str, Mapping[str, Any] | None] = field(default_factory=dict)
     model_trouble: str = ""
     model_busy: bool = False
     last: Job | None = None
@@ -141,6 +139,11 @@ class Desk:
         await self.read()
         if not self.trouble and not self.model_trouble:
             self.start(self.work("compare"))
+
+    @property
+    def sketches(self) -> dict[str, Any]:
+        """Of the laws of the effects that fit."""
+        return {str(one["name"]): one["sketch"] for one in (self.model or {}).get("effects", [])}
 
     @property
     def answers(self) -> Answers:
@@ -227,8 +230,7 @@ class Desk:
             raise BadInput(f"there is another law {name} already; give this one another name")
         file.parent.mkdir(exist_ok=True)
         write_file(file, content)
-        model = await asyncio.wrap_future(self.runner.worker.ask("model"))
-        self.model, self.sketches = model, {str(one["name"]): one["sketch"] for one in model["effects"]}
+        self.model = await asyncio.wrap_future(self.runner.worker.ask("model"))
         self.add(name)
 
     def change(self, **settings: Any) -> None:
@@ -343,7 +345,7 @@ class Desk:
         build, worker = self._build, self.runner.worker
         if self.model_busy:
             worker.end()
-        self.model, self.sketches, self.model_trouble = None, {}, ""
+        self.model, self.model_trouble = None, ""
         self.model_busy = bool(self.project.settings().model)
         self.changed()
         if not self.model_busy:
@@ -362,7 +364,6 @@ class Desk:
         if trouble == _LATE:
             worker.end()
         self.model, self.model_trouble, self.model_busy = model, trouble, False
-        self.sketches = {str(one["name"]): one["sketch"] for one in (model or {}).get("effects", [])}
         self.changed()
 
     async def draw_report(self, name: str) -> None:

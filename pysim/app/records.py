@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
 from pathlib import PurePosixPath
 from typing import Any
 
@@ -12,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.app.answers import Answer
-from pysim.app.decimate import decimated, window
 from pysim.io import shown_unit
 from pysim.io.prepare.log_names import PART
 from pysim.present.charts import LOOKS, Chart
@@ -144,3 +144,26 @@ def _shown(units: Sequence[str]) -> tuple[tuple[str, ...], tuple[float, ...]]:
     """Units as people read them, and the factors to them."""
     pairs = [shown_unit(unit) for unit in units]
     return tuple(unit for unit, _ in pairs), tuple(scale for _, scale in pairs)
+
+
+def window(time: Array, begin: float, end: float) -> slice:
+    """Samples from begin to end, s, with one more at either side so that lines reach the edge."""
+    first, last = np.searchsorted(time, [begin, end], side="left")
+    return slice(max(int(first) - 1, 0), min(int(last) + 2, time.size))
+
+
+def decimated(time: Array, values: Array, most: int) -> tuple[Array, Array]:
+    """At most so many points that look the same: per stretch the smallest and the largest sample, where they were.
+
+    Args:
+        time, values: (n,).
+        most: of points, at least 4; where there are no more samples than that, all of them come back as they are.
+    """
+    if time.size <= most:
+        return time, values
+    stretches = max(most // 2 - 1, 1)
+    edges = np.linspace(0, time.size, stretches + 1).astype(np.intp)
+    low = np.array([a + int(np.argmin(values[a:b])) for a, b in pairwise(edges.tolist())])
+    high = np.array([a + int(np.argmax(values[a:b])) for a, b in pairwise(edges.tolist())])
+    kept = np.unique(np.concatenate([[0], low, high, [time.size - 1]]))
+    return time[kept], values[kept]
