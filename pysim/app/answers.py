@@ -96,6 +96,12 @@ class Answers:
             return exact
         return next((one for one in self.all if one.stage("refit")), None)
 
+    @property
+    def branches(self) -> dict[tuple[str, ...], Answer]:
+        """Effects of a model -> the newest result that ends with it; those of fewer effects first."""
+        own = {one.added: one for one in reversed(self.all) if one.added and one.stages.about}
+        return dict(sorted(own.items(), key=lambda item: (len(item[0]), item[0])))
+
     def newest(self, key: str) -> Answer | None:
         """The newest result that has something under a key of its data, such as "ranking"."""
         return next((one for one in self.all if one.data[key]), None)

@@ -7,10 +7,10 @@ from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from pysim.io import log_source, names_its_columns, read_dataset_partly, read_toml, toml_key, toml_table, write_file
-from pysim.io.prepare import HoldOut
+from pysim.io import log_source, names_its_columns, read_described, read_toml, toml_key, toml_table, write_file
+from pysim.io.prepare import HoldOut, prepared
 from pysim.types import BadInput, Dataset
-from pysim.types.record_kind import STEPPED_SINE
+from pysim.types.record_kind import RESPONSE_TABLE, STEPPED_SINE
 
 
 def read_description(path: Path) -> dict[str, Any]:
@@ -49,7 +49,8 @@ def change_description(path: Path, content: Mapping[str, Any], *, read: bool = T
     if not read:
         return None
     try:
-        return read_dataset_partly(path.parent)[0]
+        found = read_described(path.parent, partly=True)
+        return prepared(found.raw, found.steps)
     except BadInput:
         if before is None:
             path.unlink()
@@ -79,6 +80,49 @@ def hold_out(content: dict[str, Any], read: Sequence[str], number: int, on: bool
         own = [own[read[:number].count(read[number])]]
     for record in own:
         record["use"] = "validate" if on else "fit"
+
+
+def put_steps(content: dict[str, Any], steps: Sequence[Mapping[str, Any]]) -> None:
+    """Other steps of preparation.
+
+    Args:
+        content: of a dataset.toml; changed.
+        steps: as it writes them.
+    """
+    content["dataset"].pop("preparation", None)
+    if steps:
+        content["dataset"]["preparation"] = [dict(step) for step in steps]
+
+
+def moved(steps: Sequence[Mapping[str, Any]], number: int, by: int) -> list[Mapping[str, Any]]:
+    """Steps with one of them so many places on, or without it where that is 0."""
+    others = [one for k, one in enumerate(steps) if k != number]
+    if by:
+        others.insert(number + by, steps[number])
+    return others
+
+
+BEGINS = {"near rest": None, "at rest": "rest", "anywhere, estimated": "estimate"}  # words, and `initial` of a record
+
+
+def begins(content: Mapping[str, Any]) -> str:
+    """How the logs begin, one of BEGINS; "" where they differ."""
+    found = {record.get("initial") for record in content["records"]}
+    return next((words for words, one in BEGINS.items() if found == {one}), "")
+
+
+def begin_logs(content: dict[str, Any], words: str) -> None:
+    """Let all logs over time begin so.
+
+    Args:
+        content: of a dataset.toml; changed.
+        words: one of BEGINS.
+    """
+    for record in content["records"]:
+        if record.get("kind") != RESPONSE_TABLE.name:
+            record.pop("initial", None)
+            if BEGINS[words] is not None:
+                record["initial"] = BEGINS[words]
 
 
 def leave_out(content: dict[str, Any], sources: Collection[str]) -> None:

@@ -5,22 +5,26 @@ from __future__ import annotations
 import asyncio
 import os
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 from nicegui import run
 
-from pysim.app.answers import Answers
+from pysim.app.answers import Answer, Answers
+from pysim.app.disk import remove
 from pysim.app.history import History
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
 from pysim.app.project import Project
+from pysim.app.records import raw_of
 from pysim.app.upload import Batch, Limits
 from pysim.app.worker import TASKS, Ended
-from pysim.identify.data_check import DataCheck, check_dataset
-from pysim.io import read_dataset_partly
-from pysim.types import BadInput
-from pysim.workflow import command_line
+from pysim.identify.data_check import DataCheck, FindingCode, check_dataset
+from pysim.io import read_described, write_file
+from pysim.io.prepare import prepared
+from pysim.types import BadInput, Dataset, MeasuredRecord, Record
+from pysim.workflow import LawPlace, class_name_of, command_line, effect_class
+from pysim.workflow.own_law import Range
 
 _BUILD_LIMIT = 1200.0  # s: the 900 that fmu_build.pack.compiler grants the first compilation, and more than any takes
 _LATE = (
@@ -37,11 +41,19 @@ class Loaded:
         check: what it holds; None where the description itself is wrong, or is not there.
         refused: file and reason.
         trouble: why there is no check.
+        raw: its logs before they were prepared; steps: how many follow.
     """
 
     check: DataCheck | None
     refused: tuple[tuple[str, str], ...] = ()
     trouble: str = ""
+    raw: Dataset | None = None
+    steps: int = 0
+
+    @property
+    def empty_cells(self) -> bool:
+        """Whether a log has cells without a number still."""
+        return self.check is not None and any(one.code is FindingCode.EMPTY for one in self.check.findings)
 
 
 @dataclass
@@ -53,7 +65,6 @@ class Desk:
         doing: what goes on that is no job, in words; "" where nothing does.
         trouble: why the last of it failed.
         taking: whether a drop is being put into the project.
-        sketches: of the laws of the effects that fit.
         draft: what was chosen so far for logs that nobody has described.
         version: changes with everything that a page shows, but for what a running job tells;
         beat: changes with that too.
@@ -69,7 +80,6 @@ class Desk:
     beat: int = 0
     loaded: Loaded | None = None
     model: Mapping[str, Any] | None = None
-    sketches: Mapping[str, Mapping[str, Any] | None] = field(default_factory=dict)
     model_trouble: str = ""
     model_busy: bool = False
     last: Job | None = None
@@ -129,6 +139,11 @@ class Desk:
         await self.read()
         if not self.trouble and not self.model_trouble:
             self.start(self.work("compare"))
+
+    @property
+    def sketches(self) -> dict[str, Any]:
+        """Of the laws of the effects that fit."""
+        return {str(one["name"]): one["sketch"] for one in (self.model or {}).get("effects", [])}
 
     @property
     def answers(self) -> Answers:
@@ -194,6 +209,30 @@ class Desk:
         else:
             self.start(adding(self.project, added))
 
+    async def check(self) -> None:
+        """Look at the logs beside the model's answers: signs, units, and columns that are swapped."""
+        self._free_to_change()
+        check = await asyncio.wrap_future(self.runner.worker.ask("checked"))
+        if self.loaded is not None:
+            self.loaded = replace(self.loaded, check=check)
+            self.changed()
+
+    async def add_law(self, name: str, place: LawPlace, law: str, ranges: Mapping[str, Range]) -> None:
+        """Make a law an effect of the project, and try it beside those that the model has.
+
+        Raises:
+            BadInput: work is running, what a law may not hold, or another law has that name.
+        """
+        self._free_to_change()
+        content = effect_class(name, place.slot, law, ranges, place.libraries)
+        file = self.project.laws / f"{class_name_of(name)}.mo"
+        if file.is_file() and file.read_text(encoding="utf-8") != content:
+            raise BadInput(f"there is another law {name} already; give this one another name")
+        file.parent.mkdir(exist_ok=True)
+        write_file(file, content)
+        self.model = await asyncio.wrap_future(self.runner.worker.ask("model"))
+        self.add(name)
+
     def change(self, **settings: Any) -> None:
         """Choose something else, of what results depend on.
 
@@ -215,6 +254,19 @@ class Desk:
         self.project.change(added=())
         self.changed()
 
+    def keep(self, found: Mapping[str, float]) -> None:
+        """Begin at what a search has found, from now on.
+
+        Raises:
+            BadInput: work is running.
+        """
+        self.set_values({**self.project.values(), **found})
+        self.last = None
+
+    def raw_of(self, log: MeasuredRecord) -> Record | None:
+        """A log before it was prepared; None where that is not known."""
+        return None if self.loaded is None or self.loaded.raw is None else raw_of(self.loaded.raw, log)
+
     def bring_back(self, earlier: Path) -> None:
         """Take a data set that others took the place of; the one that is there now becomes an earlier one.
 
@@ -230,6 +282,23 @@ class Desk:
     def _free_to_change(self) -> None:
         if self.runner.running is not None:
             raise BadInput("wait until the running work has ended, or stop it")
+
+    def choose(self, added: tuple[str, ...]) -> None:
+        """Show the model with other effects, of which there is a result."""
+        self.project.change(added=added)
+        self.changed()
+
+    def delete(self, answer: Answer) -> None:
+        """Remove a result with all its files.
+
+        Raises:
+            BadInput: work is running, or another program has a file of it.
+        """
+        self._free_to_change()
+        remove(answer.folder, self.project.uploads)
+        if self.project.settings().added == answer.added:
+            self.project.change(added=())
+        self.changed()
 
     def undo(self) -> None:
         """Without the last effect."""
@@ -276,7 +345,7 @@ class Desk:
         build, worker = self._build, self.runner.worker
         if self.model_busy:
             worker.end()
-        self.model, self.sketches, self.model_trouble = None, {}, ""
+        self.model, self.model_trouble = None, ""
         self.model_busy = bool(self.project.settings().model)
         self.changed()
         if not self.model_busy:
@@ -295,7 +364,6 @@ class Desk:
         if trouble == _LATE:
             worker.end()
         self.model, self.model_trouble, self.model_busy = model, trouble, False
-        self.sketches = {str(one["name"]): one["sketch"] for one in (model or {}).get("effects", [])}
         self.changed()
 
     async def draw_report(self, name: str) -> None:
@@ -319,8 +387,8 @@ def load(project: Project) -> Loaded | None:
     if not project.description.is_file():
         return Loaded(None)
     try:
-        dataset, refused = read_dataset_partly(project.data)
-        short = tuple((file, why.replace(f"{project.data}{os.sep}", "")) for file, why in refused)
-        return Loaded(check_dataset(dataset), short)
+        found = read_described(project.data, partly=True)
+        short = tuple((file, why.replace(f"{project.data}{os.sep}", "")) for file, why in found.refused)
+        return Loaded(check_dataset(prepared(found.raw, found.steps)), short, raw=found.raw, steps=len(found.steps))
     except BadInput as error:
         return Loaded(None, trouble=str(error).replace(f"{project.data}{os.sep}", ""))

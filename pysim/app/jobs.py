@@ -6,7 +6,7 @@ import contextlib
 import hashlib
 import json
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from concurrent.futures import Future
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -18,10 +18,10 @@ from pysim.app.project import VALUES, Project
 from pysim.app.worker import TASKS, Ended, Worker
 from pysim.io import write_file
 from pysim.types import BadInput
+from pysim.workflow import class_name_of
 
 RUNNING, DONE, STOPPED, FAILED = "running", "done", "stopped", "failed"
 _JOB = "job.json"
-_EARLIER = "earlier.jsonl"  # events before the job was stopped, until it has come as far again
 ANSWER, RECORDS, EVENTS, OUTPUT = "answer.json", "records.npz", "events.jsonl", "output.txt"
 REPORT = "report"  # folder of what can be taken away, and of the checkpoint
 _PATIENCE = 3.0  # s between asking a process that somebody else has begun to end, and ending it
@@ -58,8 +58,7 @@ class Job:
         begun, ended: s since 1970; ended is None while it runs.
         fingerprint: of what it was run on.
         stage: what it is doing, in a few words.
-        steps: of the error history, as far as they are done.
-        learned: lines, the last ones last.
+        trials: points of its search: `names`, `error` and `values`.
         message: why it failed.
         process: that does it; None where it has ended.
     """
@@ -70,8 +69,7 @@ class Job:
     ended: float | None
     fingerprint: str
     stage: str = ""
-    steps: tuple[dict[str, Any], ...] = ()
-    learned: tuple[str, ...] = ()
+    trials: tuple[dict[str, Any], ...] = ()
     message: str = ""
     process: Started | None = None
 
@@ -79,6 +77,11 @@ class Job:
     def lives(self) -> bool:
         """Whether its process still runs, whoever has started it."""
         return self.process is not None and self.process.lives
+
+    @property
+    def best(self) -> dict[str, Any] | None:
+        """The best point of the model without anything added; None where none was tried."""
+        return min((one for one in self.trials if not one["names"]), key=lambda one: one["error"], default=None)
 
     @property
     def seconds(self) -> float:
@@ -99,6 +102,7 @@ def works(project: Project) -> dict[str, Work]:
         raise BadInput("no data set yet; drop one on the page Data")
     more = [word for library in settings.libraries for word in ("--library", library)]
     more += ["--free", ",".join(settings.free)] if settings.free else []
+    more += [word for name, (low, high) in settings.ranges.items() for word in ("--bounds", f"{name}={low!r}:{high!r}")]
     more += ["--parameters", VALUES] if project.values() else []
     behind = ["data", "--model", settings.model, *more]
     return {
@@ -116,12 +120,18 @@ def adding(project: Project, effects: Sequence[str]) -> Work:
         BadInput: as `works`.
     """
     base = works(project)["diagnose"].words[1:]
-    own = base[: base.index("--json")]
+    own = [*base[: base.index("--json")], *(word for one in laws_of(project, effects) for word in ("--library", one))]
     safe = "+".join("".join(c if c.isalnum() or c in "._-" else "_" for c in name) for name in effects)
     chain = hashlib.sha256(repr(tuple(effects)).encode()).hexdigest()[:8]  # the names alone may be cut, or look alike
     title = f"Add {effects[-1]}"
     words = [*own, *(word for name in effects for word in ("--effects", name))]
     return replace(_work("add", title, words, f"add-{safe[:80]}-{chain}"), effects=tuple(effects))
+
+
+def laws_of(project: Project, effects: Sequence[str]) -> list[str]:
+    """Libraries of the effects that were written on the page, as they are seen from the project."""
+    files = [project.laws / f"{class_name_of(name)}.mo" for name in effects]
+    return [file.relative_to(project.folder).as_posix() for file in files if file.is_file()]
 
 
 def _work(command: str, title: str, words: Sequence[str], name: str = "") -> Work:
@@ -155,27 +165,15 @@ def _write_job(job: Job, folder: Path) -> None:
 
 
 def _with_events(job: Job, folder: Path) -> Job:
-    """With what its events say; a job that goes on keeps the steps it had found until it has found them again."""
-    lines = _lines(folder / EVENTS)
-    steps = _steps(lines)
-    steps += _steps(_lines(folder / _EARLIER))[len(steps) :]
-    if not lines:
-        return replace(job, steps=steps)
-    learned = tuple(line["text"] for line in lines if line["text"])
-    return replace(job, stage=lines[-1]["stage"], steps=steps, learned=learned)
-
-
-def _lines(events: Path) -> list[dict[str, Any]]:
+    """With what its events say."""
     lines: list[dict[str, Any]] = []
     with contextlib.suppress(OSError):
-        for line in events.read_text(encoding="utf-8").splitlines():
+        for line in (folder / EVENTS).read_text(encoding="utf-8").splitlines():
             with contextlib.suppress(ValueError):  # the last line may be half written
                 lines.append(json.loads(line))
-    return lines
-
-
-def _steps(lines: Sequence[Mapping[str, Any]]) -> tuple[dict[str, Any], ...]:
-    return tuple(line["step"] for line in lines if line["step"] is not None)
+    if not lines:
+        return job
+    return replace(job, stage=lines[-1]["stage"], trials=tuple(one["trial"] for one in lines if one.get("trial")))
 
 
 @dataclass
@@ -220,9 +218,8 @@ class Runner:
         if before is not None and (before.fingerprint != now or before.state == DONE):
             remove(folder, self.project.uploads)  # of other data or another model, or to be done anew
         folder.mkdir(parents=True, exist_ok=True)
-        _put_by(folder)
-        job = _with_events(Job(work, RUNNING, time.time(), None, now, stage="starting"), folder)
-        job = replace(job, process=self.worker.warm())
+        (folder / EVENTS).unlink(missing_ok=True)
+        job = Job(work, RUNNING, time.time(), None, now, stage="starting", process=self.worker.warm())
         _write_job(job, folder)
         self._answer, self._job, self._stopped = self.worker.ask("step", work), job, False
 
@@ -269,14 +266,6 @@ class Runner:
             message = last_words(folder / OUTPUT)
         self._job = replace(job, state=state, ended=time.time(), message=message, process=None)
         _write_job(self._job, folder)
-
-
-def _put_by(folder: Path) -> None:
-    """The events so far make room for the one to come."""
-    events, earlier = folder / EVENTS, folder / _EARLIER
-    if events.is_file() and len(_steps(_lines(events))) >= len(_steps(_lines(earlier))):
-        events.replace(earlier)
-    events.unlink(missing_ok=True)
 
 
 def settle(project: Project) -> None:

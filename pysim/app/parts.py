@@ -29,6 +29,7 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         label: what is to be seen, for those who cannot see it.
         series: where the samples of a window come from: `url`, `traces`, `span` (s, s) and `most` points.
         on_pick: receives the place that was clicked: x, y, curve, index.
+        on_range: receives the window that is shown, None where that is all; of a chart with `series`.
         height: px.
     """
 
@@ -39,6 +40,7 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         *,
         series: Mapping[str, Any] | None = None,
         on_pick: Callable[[dict[str, Any]], Any] | None = None,
+        on_range: Callable[[tuple[float, float] | None], Any] | None = None,
         height: int = 360,
     ) -> None:
         super().__init__()
@@ -47,6 +49,8 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         self.style(f"height: {height}px")
         if on_pick is not None:
             self.on("pick", lambda event: on_pick(event.args))
+        if on_range is not None:
+            self.on("range", lambda event: on_range(event.args and (float(event.args[0]), float(event.args[1]))))
 
     def show(self, figure: Mapping[str, Any], label: str) -> None:
         """Another figure in its place."""
@@ -66,6 +70,7 @@ class Sliders(Element, component=str(_STATIC / "sliders.js")):
         rows: `name`, `about`, `value`, `unit`, `min`, `max`, `slides` (whether it has both), and `fitted`.
         on_move: gets the name, the value, and whether it was let go.
         on_fit: gets the name, and whether a fit may change it.
+        on_bound: gets the name, "min" or "max", and the value.
     """
 
     def __init__(
@@ -73,11 +78,13 @@ class Sliders(Element, component=str(_STATIC / "sliders.js")):
         rows: Sequence[Mapping[str, Any]],
         on_move: Callable[[str, float, bool], Any],
         on_fit: Callable[[str, bool], Any],
+        on_bound: Callable[[str, str, float], Any],
     ) -> None:
         super().__init__()
         self._props["rows"] = list(rows)
         self.on("move", lambda event: on_move(*(event.args[key] for key in ("name", "value", "done"))))
         self.on("fit", lambda event: on_fit(event.args["name"], event.args["on"]))
+        self.on("bound", lambda event: on_bound(*(event.args[key] for key in ("name", "end", "value"))))
 
     def show(self, rows: Sequence[Mapping[str, Any]]) -> None:
         """Other values."""
@@ -114,6 +121,11 @@ class Table(Element, component=str(_STATIC / "table.js")):
             self.on("row", lambda event: on_row(int(event.args)))
         if on_tick is not None:
             self.on("tick", lambda event: on_tick(int(event.args["row"]), bool(event.args["on"])))
+
+    def show(self, rows: Sequence[Sequence[Any]]) -> None:
+        """Other rows."""
+        self._props["rows"] = [list(row) for row in rows]
+        self.update()
 
     def pick(self, row: int) -> None:
         """Mark a row."""

@@ -18,7 +18,7 @@ from pysim.io import read_toml, toml_key, toml_table, write_file
 from pysim.types import BadInput
 
 _SETTINGS, VALUES = "project.toml", "parameters.toml"
-_OWN = (_SETTINGS, VALUES, "data", "model", "earlier", "uploads", "results", LOCK)
+_OWN = (_SETTINGS, VALUES, "data", "model", "laws", "earlier", "uploads", "results", LOCK)
 LOOKS = ("auto", "light", "dark")
 
 
@@ -32,6 +32,7 @@ class Settings:
         free: parameters that may be refitted; empty: all that the model bounds.
         added: effects that the model has now, in order.
         look: of the page, one of LOOKS.
+        bounds: of parameters that differ from the model's, as `--bounds` takes them: "d=20:60".
     """
 
     model: str = ""
@@ -39,6 +40,25 @@ class Settings:
     free: tuple[str, ...] = ()
     added: tuple[str, ...] = ()
     look: str = "auto"
+    bounds: tuple[str, ...] = ()
+
+    @property
+    def ranges(self) -> dict[str, tuple[float, float]]:
+        """Parameter -> lowest and highest value, of those that a fit may change.
+
+        Raises:
+            BadInput: bounds that somebody broke.
+        """
+        found = {}
+        for one in self.bounds:
+            name, _, ends = one.rpartition("=")
+            try:
+                low, high = (float(end) for end in ends.split(":"))
+            except ValueError:
+                raise BadInput(f'{_SETTINGS}: bounds {one!r} are none; write "NAME=LOW:HIGH"') from None
+            if not self.free or name in self.free:
+                found[name] = low, high
+        return found
 
 
 @dataclass(frozen=True)
@@ -78,6 +98,11 @@ class Project:
     def models(self) -> Path:
         """Where the user's models and libraries are."""
         return self.folder / "model"
+
+    @property
+    def laws(self) -> Path:
+        """Where the classes of laws are that were written on the page; each is a library of one effect."""
+        return self.folder / "laws"
 
     @property
     def uploads(self) -> Path:
@@ -158,7 +183,7 @@ class Project:
         """Another model, with its own values and nothing added."""
         if name != self.settings().model:
             self.set_values({})
-            self.change(free=())
+            self.change(free=(), bounds=())
         self.change(model=name, libraries=libraries, added=())
 
     def model_name(self, name: str) -> str:
@@ -171,7 +196,7 @@ class Project:
     def fingerprint(self) -> str:
         """Of all that a result depends on: data, model, what may be refitted, and from which values."""
         settings = self.settings()
-        chosen = (settings.model, settings.libraries, settings.free, *sorted(self.values().items()))
+        chosen = (settings.model, settings.libraries, settings.free, settings.bounds, *sorted(self.values().items()))
         return hashlib.sha256(repr((chosen, self.files())).encode()).hexdigest()
 
     def files(self) -> str:

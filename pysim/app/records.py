@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import PurePosixPath
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.app.answers import Answer
-from pysim.app.decimate import decimated, window
 from pysim.io import shown_unit
+from pysim.io.prepare.log_names import PART
 from pysim.present.charts import LOOKS, Chart
 from pysim.present.overlay import overlay_chart, signal_trace
-from pysim.types import MeasuredRecord, Record
+from pysim.types import Dataset, MeasuredRecord, Record
 
 Array = NDArray[np.float64]
 
@@ -51,7 +54,7 @@ class Overlay:
     @property
     def span(self) -> tuple[float, float]:
         """First and last time, s."""
-        return float(self.lines[0].time[0]), float(self.lines[0].time[-1])
+        return float(min(line.time[0] for line in self.lines)), float(max(line.time[-1] for line in self.lines))
 
     def samples(self, begin: float, end: float, most: int = MOST) -> tuple[list[Any], list[Any], bool]:
         """Times and values of every line in a window, and whether these are all samples."""
@@ -61,7 +64,7 @@ class Overlay:
             x, y = decimated(line.time[part], line.values[part], most)
             exact = exact and x.size == line.time[part].size
             xs.append(x.tolist())
-            ys.append(y.tolist())
+            ys.append([None if math.isnan(one) else one for one in y.tolist()])  # an empty cell
         return xs, ys, exact
 
     def figure(self) -> Chart:
@@ -85,16 +88,29 @@ def stage_keys(answer: Answer) -> list[tuple[str, str, Mapping[str, Any]]]:
     return [(key, words, stage) for key, words, stage in found if stage is not None]
 
 
-def measured_overlay(record: MeasuredRecord) -> Overlay:
-    """A log as it was measured, before anything was compared with it."""
+def measured_overlay(record: MeasuredRecord, raw: Record | None = None) -> Overlay:
+    """A log as it was measured, before anything was compared with it.
+
+    Args:
+        raw: before it was prepared; what a step renamed or put in another unit is left out.
+    """
     data = record.data
     assert isinstance(data, Record)
     units, scales = _shown(data.units)
-    lines = [
-        Line("measured", "measured", j + 1, units[j], data.time, data.values[:, j] * scales[j])
-        for j in range(len(data.names))
-    ]
+    lines = []
+    for j, name in enumerate(data.names):
+        if raw is not None and (name, data.units[j]) in zip(raw.names, raw.units, strict=True):
+            lines.append(Line("raw", "as logged", j + 1, units[j], raw.time, raw[name] * scales[j]))
+        lines.append(Line("measured", "measured", j + 1, units[j], data.time, data.values[:, j] * scales[j]))
     return Overlay(data.names, units, (), tuple(lines))
+
+
+def raw_of(raw: Dataset, record: MeasuredRecord) -> Record | None:
+    """A log before it was prepared, and before a step cut it into parts."""
+    own = PurePosixPath(record.source)
+    whole = own.with_name(own.stem.partition(PART)[0] + own.suffix).as_posix()
+    found = next((one.data for one in raw.records if one.source in (record.source, whole)), None)
+    return found if isinstance(found, Record) else None
 
 
 def compared_overlay(answer: Answer, number: int) -> Overlay | None:
@@ -128,3 +144,26 @@ def _shown(units: Sequence[str]) -> tuple[tuple[str, ...], tuple[float, ...]]:
     """Units as people read them, and the factors to them."""
     pairs = [shown_unit(unit) for unit in units]
     return tuple(unit for unit, _ in pairs), tuple(scale for _, scale in pairs)
+
+
+def window(time: Array, begin: float, end: float) -> slice:
+    """Samples from begin to end, s, with one more at either side so that lines reach the edge."""
+    first, last = np.searchsorted(time, [begin, end], side="left")
+    return slice(max(int(first) - 1, 0), min(int(last) + 2, time.size))
+
+
+def decimated(time: Array, values: Array, most: int) -> tuple[Array, Array]:
+    """At most so many points that look the same: per stretch the smallest and the largest sample, where they were.
+
+    Args:
+        time, values: (n,).
+        most: of points, at least 4; where there are no more samples than that, all of them come back as they are.
+    """
+    if time.size <= most:
+        return time, values
+    stretches = max(most // 2 - 1, 1)
+    edges = np.linspace(0, time.size, stretches + 1).astype(np.intp)
+    low = np.array([a + int(np.argmin(values[a:b])) for a, b in pairwise(edges.tolist())])
+    high = np.array([a + int(np.argmax(values[a:b])) for a, b in pairwise(edges.tolist())])
+    kept = np.unique(np.concatenate([[0], low, high, [time.size - 1]]))
+    return time[kept], values[kept]

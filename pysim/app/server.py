@@ -21,6 +21,7 @@ from pysim.app.disk import disk_trouble
 from pysim.app.guard import Guard, host_names
 from pysim.app.jobs import Runner, settle
 from pysim.app.lock import held
+from pysim.app.notebook import notebook
 from pysim.app.pages.shell import shell
 from pysim.app.project import Project
 from pysim.app.recent import remember
@@ -258,6 +259,10 @@ def _routes(desk: Desk) -> None:
         x, y, exact = overlay.samples(begin, end, min(max(most, 4), 20000))
         return Response(json.dumps({"x": x, "y": y, "exact": exact}), media_type="application/json")
 
+    @app.get("/notebook")
+    def same_steps() -> Response:
+        return Response(notebook(desk.project), media_type="application/x-ipynb+json")
+
     @app.get("/result/{name}/{file:path}")
     async def result(name: str, file: str) -> Response:
         path = (desk.project.folder / "results" / name / file).resolve()
@@ -281,12 +286,15 @@ def _choose(project: Project, adopted: Adopted) -> None:
 
 
 def overlay_of(desk: Desk, of: str, record: int) -> Overlay | None:
-    """A record of the data set (`of` is "data") or beside the models of a result; None where there is none such."""
+    """A record of the data set (`of` is "data" or "prepared"), or beside the models of a result; None without one."""
     check = desk.loaded.check if desk.loaded else None
     if check is None or not 0 <= record < len(check.dataset.logs()):
         return None
+    log = check.dataset.logs()[record]
     if of == "data":
-        return measured_overlay(check.dataset.logs()[record])
+        return measured_overlay(log)
+    if of == "prepared":
+        return measured_overlay(log, desk.raw_of(log))
     answer = next((one for one in desk.answers.all if one.job.work.name == of), None)
     try:
         return None if answer is None else compared_overlay(answer, record)

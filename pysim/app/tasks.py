@@ -4,18 +4,21 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
 from pysim.app.followed import Followed
-from pysim.app.jobs import ANSWER, EVENTS, OUTPUT, RECORDS, REPORT, Work, read_job
+from pysim.app.jobs import ANSWER, EVENTS, OUTPUT, RECORDS, REPORT, Work, laws_of, read_job
 from pysim.app.project import Project
 from pysim.app.worker import said_in
 from pysim.diagnosis import Session, Settings, add, compare, diagnose, learn, rank
-from pysim.io import in_model_units, write_file, write_stages
+from pysim.identify.data_check import DataCheck
+from pysim.io import in_model_units, read_described, write_file, write_stages
+from pysim.nouns.data import Data
 from pysim.nouns.example import EXAMPLES, example_folder
+from pysim.nouns.model import model as opened_model
 from pysim.present import data, write_report
 from pysim.present.diagnosis import Diagnosed, files
 from pysim.present.diagnosis.words import added_sentence, comparison_sentence, learned_sentence, ranking_sentence
@@ -63,10 +66,16 @@ class Tasks:
     def model(self) -> dict[str, Any]:
         """What the project's model holds, as `pysim model --json` says it."""
         settings = self._project.settings()
-        libraries = [Path(one) for one in settings.libraries]
+        libraries = [*map(Path, settings.libraries), *self._project.laws.glob("*.mo")]
         model = model_of(settings.model, libraries)
         known = inside(model, libraries)
         return dict(data(Inside(model, known.class_name, known.slots, known.taken, tuple(libraries))))
+
+    def checked(self) -> DataCheck:
+        """What is to be looked at in the logs as they are prepared, beside the model's answers to their inputs."""
+        settings, found = self._project.settings(), read_described(Path("data"), partly=True)
+        data = Data(found.raw, found.raw, (), found.units, found.units, {}).after(*found.steps)
+        return data.check(opened_model(settings.model, library=settings.libraries)).result
 
     def example(self, name: str) -> None:
         """Take the logs, the library and the model of an example into the project."""
@@ -119,23 +128,23 @@ class Tasks:
             names = [one for one in sorted({*result.files.values(), *more}) if (folder / REPORT / one).is_file()]
             write_file(folder / REPORT / MARKER, "".join(f"{one}\n" for one in names))
 
-    def _opened(self) -> SessionParts:
-        """The project's model and data, opened once while they stay as they are."""
-        now = self._project.fingerprint()
-        if self._parts is None or self._of != now:
-            settings = self._project.settings()
-            libraries = [Path(one) for one in settings.libraries]
+    def _opened(self, laws: Sequence[str]) -> SessionParts:
+        """The project's model and data, opened once while they stay as they are, with the libraries of some laws."""
+        now, settings = self._project.fingerprint(), self._project.settings()
+        libraries = tuple(Path(one) for one in (*settings.libraries, *laws))
+        if self._parts is None or self._of != now or self._parts.libraries != libraries:
             measured = data_of(Path("data"))
             self._parts = session_parts(
                 model_of(settings.model, libraries), measured, libraries=libraries, free=settings.free,
-                bounds={}, values=self._project.values(), reference_hz=reference_of(measured.responses()),
+                bounds=settings.ranges, values=self._project.values(), reference_hz=reference_of(measured.responses()),
             )  # fmt: skip
-            self._of, self._found = now, {}
+            self._found = self._found if self._of == now else {}
+            self._of = now
         return self._parts
 
     def _result(self, work: Work, tell: Callable[[ProgressEvent], None]) -> Diagnosed:
         """What a piece of work finds, kept."""
-        parts = self._opened()
+        parts = self._opened(laws_of(self._project, work.effects))
         report = self._project.results(work.name) / REPORT
         report.mkdir(exist_ok=True)
         found = _steps(work, parts)(progress=tell, checkpoint=report / CHECKPOINT)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +44,8 @@ class Candidate:
         transient: whether stepped sines run as the bench ran them, since the model may have no periodic orbit.
         has_events: whether a law in the model has: its slopes are then those of secants.
         precision: (n, n) of a prior of the free parameters, in the search's numbers; none where None.
+        law: label of a learned law that is in it too; "" without one.
+        watch: gets its FinalFit at every point of its search.
     """
 
     effects: tuple[Effect, ...]
@@ -52,6 +55,8 @@ class Candidate:
     transient: bool = False
     has_events: bool = False
     precision: Array | None = field(default=None, repr=False)
+    law: str = ""
+    watch: Callable[[Any], object] | None = field(default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "places", FrozenMapping(self.places))
@@ -155,6 +160,7 @@ class Models:
         smooth = tuple(e for e in map(searched, session.catalogue) if not (e.bypass or switches(e)))
         self._together = [smooth] if smooth else []
         self.refused: dict[str, str] = {}
+        self.watch: Callable[[Any], object] | None = None
 
     def of(
         self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = (), *, transient: bool = False
@@ -175,7 +181,8 @@ class Models:
         own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
         space = parameter_space(model, [*self.session.parameters, *own])
         kept = {effect.name: places[effect.name] for effect in effects}
-        return Candidate(effects, tuple(nuisances), replace(problem, space=space), kept, transient, has_events)
+        problem = replace(problem, space=space)
+        return Candidate(effects, tuple(nuisances), problem, kept, transient, has_events, watch=self.watch)
 
     def alone(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = ()) -> Candidate:
         """The model with these effects themselves and no others.

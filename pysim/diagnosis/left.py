@@ -65,6 +65,13 @@ class Floors:
         sizes = np.sqrt(fit.point.squares / np.maximum(residuals.samples, 1.0))
         return {c: float(size) / self.floors[c].sd for c, size in zip(residuals.channels, sizes, strict=True)}
 
+    def whole(self, fit: FinalFit) -> float:
+        """Root mean square of all that is fitted, over the floors."""
+        residuals = fit.candidate.residuals(fit.simulation)
+        counts = dict(zip(residuals.channels, residuals.samples.tolist(), strict=True))
+        total = sum(counts[channel] * ratio**2 for channel, ratio in self.over(fit).items())
+        return math.sqrt(total / max(sum(counts.values()), 1.0))
+
     def rows(self, fit: FinalFit) -> Array:
         """(n_r,) the floor of each row of the measurements."""
         series = fit.candidate.residuals(fit.simulation).series

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass, field
 
 from pysim.diagnosis.refit import FinalFit
-from pysim.types import ErrorStep, GainTest, ProgressEvent
+from pysim.types import ErrorStep, GainTest, ProgressEvent, Trial
 
 Say = Callable[[ProgressEvent], None]
 
@@ -23,13 +23,17 @@ class Progress:
 
     tell: Say
     seconds: dict[str, float] = field(default_factory=dict)
-    now: str = ""
+    now: str = "simulating the model"
     since: float = field(default_factory=time.monotonic)
 
     def doing(self, what: str) -> None:
         """A new stage begins, in a few words."""
         self.now = what
         self.tell(ProgressEvent(what))
+
+    def tried(self, trial: Trial) -> None:
+        """A point of a search."""
+        self.tell(ProgressEvent(self.now, trial=trial))
 
     def learned(self, model: FinalFit, test: GainTest) -> None:
         """A model was kept for now."""

@@ -112,7 +112,7 @@ def begun(candidate: Candidate, point: Point, simulation: Simulation, evaluate: 
         return FinalFit(candidate, State(point, outcome=FitOutcome.NO_START), simulation, evaluate)
     bounds = _bounds(candidate)
     state = replace(_optimiser().begin(point, bounds, squares=True), first_cost=point.cost)
-    return FinalFit(candidate, _expecting(state, bounds), simulation, evaluate)
+    return _watched(FinalFit(candidate, _expecting(state, bounds), simulation, evaluate))
 
 
 def cost_at(candidate: Candidate, values: Values, simulation: Simulation, present: FinalFit) -> float:
@@ -152,7 +152,15 @@ def advance(fit: FinalFit, points: int) -> FinalFit:
         carried = state.best.carried_to(proposal.x, proposal.share)
         trial = fit.evaluate(proposal.x, carried)
         state = optimiser.tell(state, proposal, trial, bounds)
+        _watched(replace(fit, state=state))
     return replace(fit, state=_expecting(state, bounds))
+
+
+def _watched(fit: FinalFit) -> FinalFit:
+    """Shown to whoever watches the search."""
+    if fit.candidate.watch is not None:
+        fit.candidate.watch(fit)
+    return fit
 
 
 def _expecting(state: State, bounds: Bounds) -> State:

@@ -24,7 +24,7 @@ from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts
 from pysim.identify.greybox import Simulation
 from pysim.identify.greybox.beginning import settled_initial_states
-from pysim.types import BadInput, Effect
+from pysim.types import BadInput, Effect, Trial
 from pysim.types.answer import Detectable, GainTest, Verdict
 
 
@@ -124,6 +124,15 @@ class Search:
         self._tables: dict[frozenset[str], Table] = {}
         self._fits: dict[tuple[frozenset[str], bool], FinalFit] = {}
         self._unfitted: dict[tuple[frozenset[str], bool], tuple[FinalFit, rivals.Rows | None, float]] = {}
+        models.watch = self._tried
+
+    def _tried(self, fit: FinalFit) -> None:
+        """Say what a point leaves over the noise: as the base model tells it, or before that the point itself."""
+        floors = self.floors if self.floors.floors else self.floors.with_(fit)
+        own = fit.candidate
+        values = {key if isinstance(key, str) else ".".join(key): value for key, value in fit.values.items()}
+        names = (*own.labels, *([own.law] if own.law else []))
+        self.say.tried(Trial(names, floors.whole(fit), {} if own.law else values))
 
     def fit_base(self) -> FinalFit:
         """The base model refitted.
@@ -132,6 +141,7 @@ class Search:
             BadInput: it cannot be simulated at its own parameters.
         """
         candidate = self.models.of(())
+        self.say.doing("fitting the model")
 
         def found() -> FinalFit:
             first = begin_anywhere(candidate, self.rough)
@@ -198,7 +208,7 @@ class Search:
         Raises:
             BadInput: it cannot be simulated.
         """
-        candidate = self.models.of(())
+        candidate = replace(self.models.of(()), watch=None)  # it is no point of a search
         first = begin(candidate, {}, self.fine)
         if not first.good:
             raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {first.point.failure}")

@@ -2,7 +2,8 @@
 
 from pysim.effects._text import declares
 from pysim.effects.catalogue import STANDARD_LIBRARY, VENDOR, Pair, law_constants, read_catalogue, read_pairs
-from pysim.effects.law_class import law_class, parameter_text, slot_units
+from pysim.effects.law_class import LawRefused, law_class, law_equations, parameter_text, slot_units
+from pysim.effects.law_units import parameter_units
 from pysim.effects.sketch import Sketch, law_sketch
 from pysim.effects.slots import Filling, Slot, filling, fitting, slots
 from pysim.effects.variant import Variant, variant, variant_text
@@ -11,6 +12,7 @@ __all__ = [
     "STANDARD_LIBRARY",
     "VENDOR",
     "Filling",
+    "LawRefused",
     "Pair",
     "Sketch",
     "Slot",
@@ -20,8 +22,10 @@ __all__ = [
     "fitting",
     "law_class",
     "law_constants",
+    "law_equations",
     "law_sketch",
     "parameter_text",
+    "parameter_units",
     "read_catalogue",
     "read_pairs",
     "slot_units",

@@ -34,6 +34,14 @@ _KEYWORDS = {
 }  # fmt: skip
 
 
+class LawRefused(BadInput):
+    """What is wrong in the text of a law, and at which of its letters."""
+
+    def __init__(self, sentence: str, place: int) -> None:
+        super().__init__(sentence, argument="law")
+        self.place = place
+
+
 @dataclass(frozen=True)
 class _Equation:
     """One of a law: what it gives, its right-hand side, and where it stands in the law's text."""
@@ -90,6 +98,17 @@ def law_class(
         equations=[one.written for one in equations],
         annotation=note,
     )
+
+
+def law_equations(name: str, law: str, slot: Slot) -> list[tuple[str, Tree]]:
+    """What each equation of a law gives, and its right-hand side; every name may stand there.
+
+    Args:
+        name: for messages.
+    Raises:
+        LawRefused: what is no equation.
+    """
+    return [(one.gives, one.tree) for one in _equations(name, law, slot)]
 
 
 def slot_units(slot: Slot, libraries: Sequence[Path]) -> dict[str, str | None]:
@@ -214,9 +233,9 @@ def _place(law: str, word: str, start: int) -> int:
     return next((token.start for token in tokenise(law) if token.start >= start and token.text == word), start)
 
 
-def _refusal(name: str, law: str, start: int, message: str) -> BadInput:
+def _refusal(name: str, law: str, start: int, message: str) -> LawRefused:
     line, column = law.count("\n", 0, start) + 1, start - law.rfind("\n", 0, start)
-    return BadInput(f"law of {name}, line {line}, column {column}: {message}")
+    return LawRefused(f"law of {name}, line {line}, column {column}: {message}", start)
 
 
 def parameter_text(one: EffectParameter) -> str:

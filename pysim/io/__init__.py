@@ -6,7 +6,7 @@ from pysim.io.binary import check_binary, load_library
 from pysim.io.cache import cache_folder
 from pysim.io.columns import names_its_columns
 from pysim.io.counted import counted
-from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_dataset_partly
+from pysim.io.dataset import SIGNAL_KEYS, described_signal, read_dataset, read_described
 from pysim.io.draft_dataset import Draft, clock_column, draft_dataset
 from pysim.io.draft_text import draft_text
 from pysim.io.file_names import same_file, unusable_name
@@ -54,7 +54,7 @@ __all__ = [
     "names_its_columns",
     "optional_package",
     "read_dataset",
-    "read_dataset_partly",
+    "read_described",
     "read_model",
     "read_record",
     "read_signal",

@@ -9,7 +9,7 @@ from pathlib import Path, PurePosixPath
 from pysim.io.limits import LIMITS
 from pysim.io.measured_log import TIME, read_log
 from pysim.io.measured_table import read_measured_table
-from pysim.io.prepare import Step, prepared, refuse_missing_samples, step_of
+from pysim.io.prepare import Step, is_off, prepared, refuse_missing_samples, step_of
 from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section, read_toml
 from pysim.io.units import Scale, signal_in_si, unit_cure
@@ -58,13 +58,15 @@ class Described:
     refused: tuple[tuple[str, str], ...] = ()
 
 
-def read_described(folder: Path | str) -> Described:
+def read_described(folder: Path | str, *, partly: bool = False) -> Described:
     """Read a data set as `read_dataset` does, with the steps of its preparation still to be done.
 
+    Args:
+        partly: what can be read of it, with empty cells as not-a-number though no step is to follow.
     Raises:
         BadInput: as of `read_dataset`.
     """
-    return _read(Path(folder), keep_going=False)
+    return _read(Path(folder), keep_going=partly, missing=partly)
 
 
 def _ready(described: Described) -> Dataset:
@@ -75,21 +77,7 @@ def _ready(described: Described) -> Dataset:
     return dataset
 
 
-def read_dataset_partly(folder: Path | str) -> tuple[Dataset, tuple[tuple[str, str], ...]]:
-    """Read what can be read of a data set, and say what cannot.
-
-    Args:
-        folder: as of `read_dataset`.
-    Returns:
-        the data set of all readable records, and per refused one its file and what is wrong, with line and remedy.
-    Raises:
-        BadInput: the description itself is wrong.
-    """
-    described = _read(Path(folder), keep_going=True)
-    return _ready(described), described.refused
-
-
-def _read(folder: Path, *, keep_going: bool) -> Described:
+def _read(folder: Path, *, keep_going: bool, missing: bool = False) -> Described:
     toml = read_toml(_description(folder), "data set")
     head = toml.table("dataset")
     toml.whole.refuse_unknown(_KEYS)
@@ -102,7 +90,7 @@ def _read(folder: Path, *, keep_going: bool) -> Described:
     sections = toml.rows("records", "log or table")
     kinds = [_kind(section) for section in sections]
     _refuse_repeated(sections)
-    steps = tuple(step_of(section) for section in head.rows_of("preparation"))
+    steps = tuple(step_of(section) for section in head.rows_of("preparation") if not is_off(section))
     second = SECONDS[head.text("time_unit", "s", among=tuple(SECONDS))]
     records: list[MeasuredRecord] = []
     refused, numbers = [], 0
@@ -111,7 +99,7 @@ def _read(folder: Path, *, keep_going: bool) -> Described:
             if kind == RESPONSE_TABLE.name:
                 records.append(read_measured_table(toml.path.parent, section, written))
             else:
-                log = read_log(toml.path.parent, section, kind, written, scales, second, missing=bool(steps))
+                log = read_log(toml.path.parent, section, kind, written, scales, second, missing=missing or bool(steps))
                 numbers = _counted(section, numbers, log)
                 records.append(log)
         except BadInput as error:

@@ -4,22 +4,18 @@ from __future__ import annotations
 
 import hashlib
 import shutil
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
 from pysim.nouns.model import Model, opened
 from pysim.nouns.table import Shown, Table
-from pysim.types import BadInput, EffectParameter
+from pysim.types import BadInput
 from pysim.types import Effect as Described
 
 if TYPE_CHECKING:
     from pysim.effects import Slot
-
-Range = Sequence[Any]  # lowest, highest, usual, unit
+    from pysim.workflow.own_law import Range
 
 
 def effect(
@@ -41,19 +37,10 @@ def effect(
     Raises:
         BadInput: no such slot, or what a law may not hold, with its place in the text.
     """
-    from pysim.effects import law_class
-    from pysim.workflow import class_name_of, with_standard
+    from pysim.workflow import class_name_of, effect_class
 
     slot, libraries = _slot(at, model)
-    ranges = {key: _range(key, given) for key, given in parameters.items()}
-    places = with_standard(libraries)
-    shaped = [_parameter(key, own, is_strength=False) for key, own in ranges.items()]
-    law_class(class_name_of(name), slot, law, shaped, places)  # refuses the law, before its values are asked for
-    strengths = _strengths(law, slot, ranges)
-    if not strengths:
-        raise BadInput(f"effect {name}: no parameter switches the law off at 0; give one a range that holds 0")
-    declared = [_parameter(key, own, is_strength=key in strengths) for key, own in ranges.items()]
-    text = law_class(class_name_of(name), slot, law, declared, places, effect=name, description=description)
+    text = effect_class(name, slot, law, parameters, libraries, description=description)
     file = effect_folder(text) / f"{class_name_of(name)}.mo"
     if not file.exists():
         file.parent.mkdir(parents=True, exist_ok=True)
@@ -182,46 +169,3 @@ def _slot(at: str, model: Model | None) -> tuple[Slot, tuple[Path, ...]]:
             f"effect: models that were opened have different slots {at!r}; say which: model=...", argument="model"
         )
     return next(iter(found.values()))
-
-
-def _range(key: str, given: Range) -> tuple[float, float, float, str]:
-    try:
-        low, high, usual, unit = given
-        low, high, usual = float(low), float(high), float(usual)
-    except (TypeError, ValueError):
-        raise BadInput(f"effect: {key} = {given!r}; write {key}=(lowest, highest, usual, unit)", argument=key) from None
-    if not low <= usual <= high or not low < high:
-        raise BadInput(
-            f"effect: {key} is usually {usual:g}, outside {low:g} to {high:g}; give lowest, highest, usual",
-            argument=key,
-        )
-    return low, high, usual, str(unit)
-
-
-def _parameter(key: str, own: tuple[float, float, float, str], *, is_strength: bool) -> EffectParameter:
-    low, high, usual, unit = own
-    default, off = (0.0, 0.0) if is_strength else (usual, None)
-    return EffectParameter(key, unit, low, high, usual, default, off)
-
-
-def _strengths(law: str, slot: Slot, ranges: Mapping[str, tuple[float, float, float, str]]) -> set[str]:
-    """Parameters without which nothing is left: their range holds 0, and the law vanishes only where they are there."""
-    from pysim.effects.law import Moment, read_law
-
-    one_line = law if "=" in law.replace("==", "").replace("<=", "").replace(">=", "") else f"{slot.gives[0]} = {law}"
-    read, rng = read_law(one_line), np.random.default_rng(0)
-    seen = {name: rng.uniform(0.5, 2.0, 16) * rng.choice([-1.0, 1.0], 16) for name in (*slot.sees, "time")}
-    usual = {key: own[2] or 0.5 * (own[1] if own[1] else own[0]) for key, own in ranges.items()}
-
-    def is_off(zeros: set[str]) -> bool:
-        known = {**seen, **{key: 0.0 if key in zeros else value for key, value in usual.items()}}
-        at = Moment(read, known)
-        return all(bool(np.all(np.asarray(at[name]) == 0.0)) for name in slot.gives)
-
-    zeros = {key for key, (low, high, *_) in ranges.items() if low <= 0 <= high}
-    if not is_off(zeros):
-        return set()
-    for key in sorted(zeros, reverse=True):
-        if is_off(zeros - {key}):
-            zeros = zeros - {key}
-    return zeros

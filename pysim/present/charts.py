@@ -30,6 +30,7 @@ LOOKS = {
     "prior": Look("as it is", "@prior", "dot"),
     "refit": Look("refitted", "@base", "dash"),
     "last": Look("with what was added", "@final", "solid"),
+    "raw": Look("as logged", "@prior", "solid"),
 }
 # The light look of pysim/app/static/app.css.
 COLOURS = {

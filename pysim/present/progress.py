@@ -180,11 +180,13 @@ class Unfolding(Working):
         """Show it."""
         with self._lock:
             self._stage = event.stage
+            if event.trial is not None:
+                self._stage += f": {' + '.join(event.trial.names)} {event.trial.error:.4g} x noise"
             if event.step is not None:
                 self._steps.append(event.step)
             elif event.text:
                 self._learned = [*self._learned, event.text][-_LEARNED:]
-        if not self._watched:
+        if not self._watched and event.trial is None:
             print(f"{self._elapsed():6.1f} s  {event}", file=sys.stderr, flush=True)
 
     def lines(self) -> list[str]:
@@ -225,7 +227,8 @@ def _bars(steps: Sequence[ErrorStep]) -> list[str]:
 class EventFile:
     """Progress as lines of JSON that another program can follow.
 
-    Each has `seconds` since the begin, `stage`, `text`, and `step` of the error history (or null).
+    Each has `seconds` since the begin, `stage`, `text`, `step` of the error history (or null), and `trial`: a point of
+    a search with `names`, `error` and `values` (or null).
     """
 
     def __init__(self, path: Path) -> None:
@@ -236,6 +239,8 @@ class EventFile:
         """Write one line at once, so that a reader sees it whole or not at all."""
         elapsed = time.monotonic() - self._begun
         step = None if event.step is None else step_data(event.step)
-        line = {"seconds": round(elapsed, 3), "stage": event.stage, "text": event.text, "step": step}
+        line = {"seconds": round(elapsed, 3), "stage": event.stage, "text": event.text, "step": step, "trial": None}
+        if (trial := event.trial) is not None:
+            line["trial"] = {"names": trial.names, "error": trial.error, "values": dict(trial.values)}
         with self._path.open("a", encoding="utf-8") as file:
             file.write(json.dumps(line) + "\n")

@@ -39,7 +39,7 @@ from pysim.types.frequency_response import FrequencyResponse
 from pysim.types.model import Abilities, CoSimulation, Model, Variable
 from pysim.types.note import Note, NoteCode
 from pysim.types.port import Port
-from pysim.types.progress_event import ProgressEvent
+from pysim.types.progress_event import ProgressEvent, Trial
 from pysim.types.record import Outcome, Record, SimulationError
 from pysim.types.record_kind import KINDS, RecordKind
 from pysim.types.setting import setting
@@ -104,6 +104,7 @@ __all__ = [
     "SimulationError",
     "SineTest",
     "Start",
+    "Trial",
     "Variable",
     "Verdict",
     "answer_data",

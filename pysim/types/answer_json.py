@@ -131,7 +131,7 @@ def law_data(law: LearnedLaw) -> Json:
     """A learned law as a table."""
     low, high = law.band
     shape: Json = {"argument": law.knots, "value": law.coefficients}
-    shape |= {"low": low, "high": high, "argument_unit": law.argument_unit, "unit": law.unit}
+    shape |= {"low": low, "high": high, "argument_unit": law.argument_unit, "unit": law.unit, "absorbed": law.absorbed}
     return {
         "slot": law.slot,
         "share": law.share,

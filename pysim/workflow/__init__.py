@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from pysim.workflow.free import free_parameters, suggested
     from pysim.workflow.learned import class_name_of, keep_law, law_file, with_classes
     from pysim.workflow.model import ModelInside, class_in, inside, is_fmu, model_of, recorded_of, with_standard
+    from pysim.workflow.own_law import LawPlace, TypedLaw, effect_class, typed_law
     from pysim.workflow.session import SessionParts, effects_of, named, open_session, session_of, session_parts
     from pysim.workflow.shell import command_line
     from pysim.workflow.variants import Variants
@@ -36,6 +37,7 @@ _FILES = {
     "free": ("free_parameters", "suggested"),
     "learned": ("class_name_of", "keep_law", "law_file", "with_classes"),
     "model": ("ModelInside", "class_in", "inside", "is_fmu", "model_of", "recorded_of", "with_standard"),
+    "own_law": ("LawPlace", "TypedLaw", "effect_class", "typed_law"),
     "session": ("SessionParts", "effects_of", "named", "open_session", "session_of", "session_parts"),
     "shell": ("command_line",),
     "variants": ("Variants",),
@@ -43,14 +45,17 @@ _FILES = {
 __all__ = [
     "BY_DATA",
     "Initial",
+    "LawPlace",
     "ModelInside",
     "SessionParts",
+    "TypedLaw",
     "Variants",
     "beginning",
     "class_in",
     "class_name_of",
     "command_line",
     "data_of",
+    "effect_class",
     "effects_of",
     "export_model",
     "fit_problem",
@@ -69,6 +74,7 @@ __all__ = [
     "session_of",
     "session_parts",
     "suggested",
+    "typed_law",
     "whole_answer",
     "with_classes",
     "with_standard",

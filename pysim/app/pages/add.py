@@ -1,13 +1,16 @@
-"""Page 5: the error, step by step, moving while the fit runs; parameters before and after; undo."""
+"""Page 5: the search while it runs; the error, step by step; parameters before and after; undo."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from functools import partial
+from string import ascii_uppercase
 from typing import Any
 
 from pysim.app.answers import Answer, history
 from pysim.app.desk import Desk
 from pysim.app.pages.common import attempt, busy, doubts, ended, nothing, start
+from pysim.app.pages.moving import moving
 from pysim.app.parts import Chart, Table, box, button, card, head, live, note, text
 from pysim.present.criteria import CRITERIA
 from pysim.present.diagnosis.figures.criteria import criteria_chart
@@ -20,25 +23,23 @@ from pysim.types import read_step
 def add_page(desk: Desk) -> None:
     """The falling error."""
     live(lambda: desk.version, lambda: _top(desk), "gap")
-    with card("Error over noise, step by step") as place:
-        text("p", "Root-mean-square residual in standard deviations of the noise: 1 means only noise is left.", "small")
-        error = _Error(desk, place)
-        live(lambda: (desk.beat, desk.version), error.show)
+    moving(desk)
     live(lambda: desk.version, lambda: _below(desk), "gap")
 
 
 def _top(desk: Desk) -> None:
     settings, running = desk.project.settings(), desk.runner.running
     answer = desk.answers.with_effects(settings.added)
-    current = answer is not None and answer.added == settings.added  # what was undone is not what is shown
+    current = answer is not None and answer.added == settings.added and running is None  # not what was undone
     head("Watch the error fall", str(answer.data["reason"]) if answer is not None and current else "")
     ended(desk)
-    if answer is None and running is None:
+    if desk.answers.verdict is None and not settings.added and running is None:
         with box("row"):
             button("Find what is missing", lambda: start(desk, lambda: desk.work("diagnose")), "main", off=busy(desk))
             text("span", "or try a candidate on the page Candidates", "small")
     if answer is not None:
-        doubts(answer)
+        if running is None:
+            doubts(answer)
         _chain(desk, settings.added)
 
 
@@ -54,59 +55,57 @@ def _chain(desk: Desk, added: Sequence[str]) -> None:
             button(f"Undo {added[-1]}", lambda: attempt(desk.undo), "small", off=busy(desk))
 
 
-class _Error:
-    """One figure that moves while steps come in."""
-
-    def __init__(self, desk: Desk, place: Any) -> None:
-        self._desk, self._place = desk, place
-        self._chart: Chart | None = None
-
-    def show(self) -> None:
-        """What is known now."""
-        steps, doing = self._steps()
-        if not steps and not doing:
-            if self._chart is not None:
-                self._chart.delete()
-                self._chart = None
-            self._place.set_visibility(False)
-            return
-        self._place.set_visibility(True)
-        told = "; ".join(f"{s['step']} {s['fit'] or s['validate'] or 0:.2f}" for s in steps) or doing
-        figure = error_chart([read_step(s) for s in steps], doing=doing)
-        label = f"Error over noise, step by step: {told}"
-        if self._chart is None:
-            with self._place:
-                self._chart = Chart(figure, label, height=350)
-        else:
-            self._chart.show(figure, label)
-
-    def _steps(self) -> tuple[Sequence[Mapping[str, Any]], str]:
-        """Of what runs, of the model as it is now, or of what was stopped; and what is being worked on."""
-        job = self._desk.runner.running
-        if job is not None and job.work.words[0] in ("diagnose", "add", "compare", "locate"):
-            return job.steps, job.stage
-        added = self._desk.project.settings().added
-        answer = self._desk.answers.with_effects(added)
-        return (_kept(self._desk) if answer is None else history(answer, added)), ""
-
-
-def _kept(desk: Desk) -> Sequence[Mapping[str, Any]]:
-    """Steps that a stopped job had found."""
-    job = desk.unfinished()
-    return [] if job is None else job.steps
-
-
 def _below(desk: Desk) -> None:
     settings = desk.project.settings()
     answer = desk.answers.with_effects(settings.added)
     if answer is None:
-        if desk.runner.running is None and not _kept(desk):
+        if desk.runner.running is None:
             nothing("Nothing was fitted yet", "The error begins with the model as it is.")
         return
+    _error(history(answer, settings.added))
+    _branches(desk)
     _criteria(answer, settings.added)
     _parameters(answer)
     for one in answer.data["notes"]:
         note(str(one["text"]))
+
+
+def _error(steps: Sequence[Mapping[str, Any]]) -> None:
+    with card("Error over noise, step by step"):
+        text("p", "Root-mean-square residual in standard deviations of the noise: 1 means only noise is left.", "small")
+        told = "; ".join(f"{s['step']} {s['fit'] or s['validate'] or 0:.2f}" for s in steps)
+        figure = error_chart([read_step(s) for s in steps])
+        Chart(figure, f"Error over noise, step by step: {told}", height=350)
+
+
+def _branches(desk: Desk) -> None:
+    """Models that were tried, side by side: any of them can be shown again, or deleted."""
+    found, now = desk.answers.branches, desk.project.settings().added
+    if len(found) < 2:
+        return
+    with card("Branches"):
+        text("p", "Each model that was tried, and what it leaves in fitted and in held-out logs.", "small")
+        first = next(iter(found.values()))
+        ends = [one.data["error"][-1] | {"step": " + ".join(added)} for added, one in found.items()]
+        figure = error_chart([read_step(s) for s in [*history(first, ())[-1:], *ends]])
+        Chart(figure, f"Error over noise of {len(found)} branches", height=300)
+        with box("tight"):
+            for letter, (added, one) in zip(ascii_uppercase, found.items(), strict=False):
+                with box("row"):
+                    text("b", letter)
+                    for name in added:
+                        text("span", f"+ {name}", "chip")
+                    if added == now:
+                        text("span", "shown", "chip good")
+                    else:
+                        press = button("Show", partial(desk.choose, added), "small", off=busy(desk))
+                        press._props["aria-label"] = f"show {' + '.join(added)}"
+                    press = button("Delete", partial(_delete, desk, one), "small quiet", off=busy(desk))
+                    press._props["aria-label"] = f"delete {' + '.join(added)}"
+
+
+def _delete(desk: Desk, answer: Answer) -> None:
+    attempt(lambda: desk.delete(answer))
 
 
 def _criteria(answer: Answer, added: Sequence[str]) -> None:

@@ -10,15 +10,18 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.pages.common import attempt, busy, ended, nothing, start
+from pysim.app.pages.moving import moving
 from pysim.app.parts import box, button, card, curve, head, live, text
 
 
 def candidates_page(desk: Desk) -> None:
     """The ranking."""
+    live(lambda: desk.version, lambda: _top(desk), "gap")
+    moving(desk)
     live(lambda: desk.version, lambda: _build(desk), "gap")
 
 
-def _build(desk: Desk) -> None:
+def _top(desk: Desk) -> None:
     answer = desk.answers.newest("ranking")
     head(
         "What may be missing", "Every effect of the catalogue that fits a slot of the model, by what it would explain."
@@ -33,6 +36,10 @@ def _build(desk: Desk) -> None:
         text("span", "Ranking decides nothing; finding adds what the measurements demand, and says why.", "small")
     if desk.answers.verdict is not None:
         _verdict(desk.answers.verdict)
+
+
+def _build(desk: Desk) -> None:
+    answer = desk.answers.newest("ranking")
     effects = (desk.model or {}).get("effects", [])
     if answer is None and not effects:
         nothing("No candidates yet", "Name a model with slots on the page Data.")
@@ -103,7 +110,7 @@ def _named(effect: Mapping[str, Any], *, tied: bool = False) -> None:
 def _trying(desk: Desk, name: str) -> None:
     if name in desk.project.settings().added:
         text("span", "in the model", "chip good")
-    else:
+    elif any(one["name"] == name for one in (desk.model or {}).get("effects", [])):  # a sensor's error is none of them
         button("Try", lambda: _try(desk, name), "small", off=busy(desk))
 
 

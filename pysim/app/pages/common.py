@@ -46,6 +46,8 @@ def busy(desk: Desk) -> str:
         return "Drop a data set first"
     if desk.loaded is not None and desk.loaded.refused:
         return "Some logs were refused; mend them or leave them out on the page Data"
+    if desk.loaded is not None and desk.loaded.empty_cells:
+        return "Some cells are empty; fill them, or cut them out, on the page Prepare"
     if not desk.project.settings().model:
         return "Name a model first"
     return "The model is being built" if desk.model_busy else desk.model_trouble and "The model cannot be used"
@@ -66,7 +68,11 @@ def ended(desk: Desk) -> None:
     else:
         with box("note row end"):
             text("span", f"{job.work.title} was stopped; what it had found is kept.")
-            button("Go on", lambda: attempt(lambda: desk.start(job.work)), "small", off=busy(desk))
+            with box("row"):
+                if (best := job.best) is not None:
+                    words = f"Keep its best values ({best['error']:.3g} × noise)"
+                    button(words, lambda: attempt(lambda: desk.keep(best["values"])), "small", off=busy(desk))
+                button("Go on", lambda: attempt(lambda: desk.start(job.work)), "small", off=busy(desk))
 
 
 def doubts(answer: Answer) -> None:
@@ -95,9 +101,9 @@ def segments(options: list[tuple[str, str]], chosen: str, pick: Callable[[str], 
             one._props["aria-pressed"] = "true" if key == chosen else "false"
 
 
-def amount(value: Any, put: Callable[[float | None], Any], label: str) -> None:
+def amount(value: Any, put: Callable[[float | None], Any], label: str, *, signed: bool = False) -> None:
     """A number that may be left empty."""
-    field = ui.element("input").props("type=number step=any min=0")
+    field = ui.element("input").props(f"type=number step=any {'' if signed else 'min=0'}")
     field._props["aria-label"], field._props["value"] = label, "" if value is None else value
 
     def changed(written: str) -> None:

@@ -13,6 +13,7 @@ from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.error_map import ErrorMap, error_maps
 from pysim.app.pages.common import busy, doubts, ended, nothing, segments, start
+from pysim.app.pages.moving import moving
 from pysim.app.parts import Chart, Table, box, button, card, head, live, quantity, text
 from pysim.app.records import MOST, compared_overlay, measured_overlay, stage_keys
 from pysim.app.working_point import command_unit, response_unit, working_point
@@ -42,6 +43,7 @@ def compare_page(desk: Desk) -> None:
     """Measured and simulated."""
     view = _View()
     live(lambda: desk.version, lambda: _top(desk), "gap")
+    moving(desk)
     live(lambda: (desk.version, view.model), lambda: _maps(desk, view), "gap")
     live(lambda: (desk.version, view.record), lambda: _record(desk, view), "gap")
     live(lambda: (desk.version, view.model, view.response), lambda: _bode(desk, view), "gap")

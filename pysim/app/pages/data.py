@@ -129,11 +129,11 @@ def _refused(desk: Desk, loaded: Loaded) -> None:
         )
         with box("row"):
             files = {file for file, _ in loaded.refused}
-            button("Leave them out", lambda: _change(desk, lambda c: leave_out(c, files), safe=True), "small")
+            button("Leave them out", lambda: change(desk, lambda c: leave_out(c, files), safe=True), "small")
             text("span", "or mend them and drop the folder again", "small")
 
 
-def _change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = False) -> None:
+def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = False) -> None:
     """Edit the description; what is refused is said, and nothing is changed.
 
     Args:
@@ -175,7 +175,7 @@ def _signals(desk: Desk, check: DataCheck) -> None:
 
 def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[str]) -> None:
     def put(key: str, value: Any) -> None:
-        _change(desk, lambda content: content["signals"][name].update({key: value}))
+        change(desk, lambda content: content["signals"][name].update({key: value}))
 
     text("b", name)
     text("span", str(section.get("role", "")))
@@ -213,7 +213,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
         Table(
             "Records", columns, [_row(record) for record in check.records], height="360px",
             on_row=lambda k: preview.update(record=k), picked=preview.get("record", -1),
-            on_tick=lambda k, on: _change(desk, lambda c: hold_out(c, read, k, on), safe=True),
+            on_tick=lambda k, on: change(desk, lambda c: hold_out(c, read, k, on), safe=True),
         )  # fmt: skip
     number = _log_number(check, preview.get("record", -1))
     if number is not None:

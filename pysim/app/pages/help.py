@@ -14,6 +14,11 @@ _ABOUT = {
         "Name a Modelica class, or drop an .fmu or a library.",
         "Logs that are not fitted show how well the model predicts.",
     ),
+    "/prepare": (
+        "Drag over a stretch of a log to zoom in. Then keep it, or cut it out. The grey line is what was logged.",
+        "Steps are done one after the other. Switch one off to see what it does; Ctrl+Z takes back the last change.",
+        "The steps stand in data/dataset.toml. Python and the command line do them as well.",
+    ),
     "/model": (
         "Move a slider. One log is simulated again at once; the curves and the residual follow.",
         "Where you let go is kept in parameters.toml. Fits and searches begin there.",

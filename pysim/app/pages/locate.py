@@ -8,6 +8,8 @@ from typing import Any
 from pysim.app.desk import Desk
 from pysim.app.pages.candidates import effect_row
 from pysim.app.pages.common import busy, ended, nothing, start
+from pysim.app.pages.moving import moving
+from pysim.app.pages.write import Writing
 from pysim.app.parts import Chart, Drawing, box, button, card, live, note, text
 from pysim.present.diagnosis.figures.law import law_chart
 
@@ -18,6 +20,7 @@ def locate_page(desk: Desk) -> None:
     """Where something is missing."""
     chosen: dict[str, str] = {}
     live(lambda: desk.version, lambda: _build(desk, chosen), "gap")
+    moving(desk)
     live(lambda: (desk.version, chosen.get("slot")), lambda: _below(desk, chosen), "gap")
 
 
@@ -117,24 +120,25 @@ def _below(desk: Desk, chosen: dict[str, str]) -> None:
         about = str(slots[name]["about"]) if name in slots else ""
         if about:
             text("p", f"{about}.", "small")
-        answer = desk.answers.newest("missing")
-        if one is not None and answer is not None:
-            _term(one)
-        elif found:
+        chart = None if one is None else _term(one)
+        if one is None and found:
             text("p", "No law was learned here: other places explain more.", "note")
+        if name in slots:
+            Writing(desk, name, one, chart)
     _effects(desk, name)
     answer = desk.answers.newest("missing")
     for line in answer.data["notes"] if answer is not None else ():
         note(str(line["text"]))
 
 
-def _term(one: Mapping[str, Any]) -> None:
+def _term(one: Mapping[str, Any]) -> Chart | None:
     """The law over what it depends on."""
-    if len(one["shape"]["argument"]) > 1:
-        words = f"Learned law at {one['slot']} over {one['depends_on']} with its 95 percent band"
-        Chart(law_chart(one), words, height=340)
     explains = f"Over {one['depends_on']} it explains {100 * one['share']:.1f} % of the misfit."
     text("p", f"{explains} The band holds 95 percent.", "small")
+    if len(one["shape"]["argument"]) < 2:
+        return None
+    words = f"Learned law at {one['slot']} over {one['depends_on']} with its 95 percent band"
+    return Chart(law_chart(one), words, height=280)
 
 
 def _effects(desk: Desk, slot: str) -> None:

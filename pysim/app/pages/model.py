@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import asyncio
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 from nicegui import background_tasks
 
+from pysim.app.description import BEGINS, begin_logs, begins, read_description
 from pysim.app.desk import Desk
 from pysim.app.pages.common import attempt, busy, nothing
+from pysim.app.pages.data import change
 from pysim.app.parts import Chart, Choice, Sliders, box, button, card, head, live, say, text
 from pysim.app.worker import Ended
 from pysim.io import shown_unit
@@ -55,9 +58,16 @@ class _Follows:
             with box("form").style("width: 240px"):
                 Choice("log that is shown", logs, logs[self.number], lambda one: self._look(logs.index(one)))
         with card("Parameters"):
-            self._sliders = Sliders(self._rows(), self._moved, self._fit)
+            self._sliders = Sliders(self._rows(), self._moved, self._fit, self._bound)
             with box("row"):
-                button("All as the model has them", lambda: attempt(lambda: self._desk.set_values({})), "small")
+                button("All as the model has them", lambda: attempt(self._reset), "small")
+        with card("Initial states"), box("row"):
+            text("span", "The logs begin")
+            now = begins(read_description(self._desk.project.description))
+            with box("form").style("width: 220px"):
+                options = [*BEGINS] if now else ["", *BEGINS]
+                Choice("how the logs begin", options, now, lambda one: self._begin(one))
+            text("span", "Near rest: estimated, and expected close to the model at rest.", "small")
         self._values, self._shown = self._all(), -1
         self._ask()
 
@@ -77,12 +87,41 @@ class _Follows:
     def _rows(self) -> list[dict[str, Any]]:
         """Name, value, bounds, unit, and whether it is fitted."""
         set_, settings = self._desk.project.values(), self._desk.project.settings()
-        return [
-            {**one, "value": set_.get(one["name"], one["start"]), "slides": None not in (one["min"], one["max"])}
-            | {"fitted": one["name"] in (settings.free or suggested(self._desk))}
-            for one in (self._desk.model or {})["parameters"]
-            if one["start"] is not None
-        ]
+        fitted = settings.free or (*suggested(self._desk), *settings.ranges)
+        written = replace(settings, free=()).ranges
+        rows = []
+        for one in (self._desk.model or {})["parameters"]:
+            if one["start"] is not None:
+                low, high = written.get(one["name"], (one["min"], one["max"]))
+                own = {"value": set_.get(one["name"], one["start"]), "fitted": one["name"] in fitted}
+                rows.append({**one, **own, "min": low, "max": high, "slides": None not in (low, high)})
+        return rows
+
+    def _begin(self, words: str) -> None:
+        if words:
+            change(self._desk, lambda content: begin_logs(content, words), safe=True)
+
+    def _reset(self) -> None:
+        self._desk.change(bounds=())
+        self._desk.set_values({})
+
+    def _bound(self, name: str, end: str, value: float) -> None:
+        """Another end of the slider, and of what a fit may come to."""
+        row = next(one for one in self._rows() if one["name"] == name)
+        low, high = (value if end == key else row[key] for key in ("min", "max"))
+
+        def put() -> None:
+            low_, high_ = (float("nan") if one is None else float(one) for one in (low, high))
+            low_ = row["value"] - abs(row["value"]) if low is None else low_
+            high_ = row["value"] + abs(row["value"]) if high is None else high_
+            if not low_ < high_:
+                raise BadInput(f"{name}: from {low_:g} to {high_:g} is no range; give a smaller min, or a larger max")
+            others = [one for one in self._desk.project.settings().bounds if one.rpartition("=")[0] != name]
+            self._desk.change(bounds=(*others, f"{name}={low_!r}:{high_!r}"))
+
+        attempt(put)
+        if self._sliders is not None:
+            self._sliders.show(self._rows())
 
     def _fit(self, name: str, on: bool) -> None:
         """Let a fit change a parameter, or leave it."""

@@ -18,6 +18,7 @@ from pysim.app.pages.data import data_page
 from pysim.app.pages.help import help_of
 from pysim.app.pages.locate import locate_page
 from pysim.app.pages.model import model_page
+from pysim.app.pages.prepare import prepare_page
 from pysim.app.pages.start import start_page
 from pysim.app.pages.take import take_page
 from pysim.app.parts import box, button, live, text
@@ -26,6 +27,7 @@ from pysim.io import counted
 
 _PAGES = (
     ("/", "Data", data_page),
+    ("/prepare", "Prepare", prepare_page),
     ("/model", "Model", model_page),
     ("/compare", "Compare", compare_page),
     ("/locate", "Locate", locate_page),
@@ -203,6 +205,7 @@ def _states(desk: Desk) -> list[tuple[str, bool]]:
     last = "" if now is None or not settings.added else f"{_rms(settings.added[-1], now.data['error'])} × noise"
     return [
         (counted(len(check.records), "record") if check else "drop your logs", check is not None),
+        _prepared(desk),
         (f"{counted(len(values), 'value')} of your own" if values else "move its parameters", bool(values)),
         (error or "model beside data", compared is not None),
         (first or "where it fails", located is not None),
@@ -210,6 +213,15 @@ def _states(desk: Desk) -> list[tuple[str, bool]]:
         (last or "watch the error fall", bool(last)),
         ("class, FMU, report" if last else "files and commands", bool(last)),
     ]
+
+
+def _prepared(desk: Desk) -> tuple[str, bool]:
+    """How many steps the data set asks for, or what is to be mended."""
+    loaded = desk.loaded
+    if loaded is not None and loaded.empty_cells:
+        return "empty cells", False
+    steps = loaded.steps if loaded is not None else 0
+    return (counted(steps, "step") if steps else "keep, cut, filter", bool(steps))
 
 
 def _rms(step: str, error: list[dict[str, object]]) -> str:

@@ -48,6 +48,10 @@ def _build(desk: Desk) -> None:
         lines = commands(desk)
         text("pre", lines, "code").props('tabindex="0"')
         button("Copy", lambda: _copy(lines), "small")
+    if desk.project.settings().model and desk.project.description.is_file():
+        with card("In Python"):
+            text("p", "The same steps as a notebook, to run in the project's folder.", "small")
+            text("a", "Download the notebook", "plain").props('href="/notebook" download="workbench.ipynb"')
 
 
 def commands(desk: Desk) -> str:

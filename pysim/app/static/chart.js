@@ -23,7 +23,7 @@ function dressed(value, colour) {
 // and then draw anew without end (plotly.js issue 7572).
 function settings(series) {
   const modeBarButtons = [["zoom2d", "pan2d", "zoomIn2d", "zoomOut2d", "resetScale2d", "toImage"]];
-  return { displaylogo: false, displayModeBar: series ? "hover" : false, doubleClick: "reset", modeBarButtons };
+  return { displaylogo: false, displayModeBar: series ? "hover" : false, doubleClick: "reset", showTips: false, modeBarButtons };
 }
 
 export default {
@@ -107,6 +107,7 @@ export default {
       if (keys.some((key) => key.startsWith("xaxis.autorange"))) this.range = null;
       else if (keys.some((key) => key.startsWith("xaxis.range"))) this.range = [...this.$el.layout.xaxis.range];
       else return;
+      this.$emit("range", this.range);
       clearTimeout(this.later);
       this.later = setTimeout(() => this.fetch(this.range), 40);
     },

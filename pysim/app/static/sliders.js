@@ -12,7 +12,9 @@ export default {
         <td><input type="number" step="any" class="field" :aria-label="'value of ' + row.name" :value="shown(row)" @change="typed(row, $event.target)" /></td>
         <td><input v-if="row.slides" type="range" min="0" :max="steps" :aria-label="'slider of ' + row.name" :value="place(row)"
                    :aria-valuetext="shown(row) + ' ' + row.unit" @input="slid(row, $event, false)" @change="slid(row, $event, true)" /></td>
-        <td>{{ row.unit }}</td><td class="number">{{ row.min }}</td><td class="number">{{ row.max }}</td>
+        <td>{{ row.unit }}</td>
+        <td v-for="end in ['min', 'max']" :key="end"><input type="number" step="any" class="field bound" :aria-label="end + ' of ' + row.name"
+              :value="row[end]" @change="bound(row, end, $event.target)" /></td>
         <td class="tick"><input v-if="row.slides" type="checkbox" :aria-label="'fit ' + row.name" :checked="row.fitted"
                                 @change="$emit('fit', { name: row.name, on: $event.target.checked })" /></td>
       </tr></tbody>
@@ -50,6 +52,10 @@ export default {
       const value = Number(field.value);
       if (field.value !== "" && Number.isFinite(value)) this.move(row, value, true);
       else field.value = this.shown(row);
+    },
+    bound(row, end, field) {
+      if (field.value !== "") this.$emit("bound", { name: row.name, end, value: Number(field.value) });
+      else field.value = row[end];
     },
     move(row, value, done) {
       this.values[row.name] = value;

@@ -131,7 +131,7 @@ def started(
     n = x.size
     precision = np.zeros((n, n))
     precision[-knots.size :, -knots.size :] = smoothness.precision
-    candidate = replace(candidate, precision=precision)
+    candidate = replace(candidate, precision=precision, law=law.label)
     evaluate = penalised(exact(candidate, simulation), smoothness)
     point = evaluate(x, carried or model.present.point.carried)
     return LawFit(law, knots, unit, smoothness, refit.begun(candidate, point, simulation, evaluate))

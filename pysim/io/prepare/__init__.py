@@ -11,7 +11,7 @@ from pysim.io.prepare.outliers import DropOutliers, outliers
 from pysim.io.prepare.signals import Delay, Detrend, Flip, Rename, Scaled
 from pysim.io.prepare.step import Step, call, prepared, refuse_missing_samples
 from pysim.io.prepare.typed import step_typed, typed
-from pysim.io.prepare.written import STEPS, step_of, values_of
+from pysim.io.prepare.written import STEPS, is_off, step_of, values_of
 
 __all__ = [
     "STEPS",
@@ -30,6 +30,7 @@ __all__ = [
     "Step",
     "Trim",
     "call",
+    "is_off",
     "logs_called",
     "outliers",
     "prepared",

@@ -20,6 +20,7 @@ _ALL: tuple[type[Any], ...] = (
     Trim, Exclude, FillGaps, DropOutliers, Resample, LowPass, Detrend, Delay, Flip, Scaled, Rename, HoldOut, Split,
 )  # fmt: skip
 
+_OFF = "off"
 STEPS: Mapping[str, type[Any]] = MappingProxyType({one.word: one for one in _ALL})
 
 
@@ -31,13 +32,27 @@ def step_of(section: Section) -> Step:
     """
     kind = STEPS[section.text("step", among=tuple(STEPS))]
     own = {field.name: field for field in fields(kind)}
-    section.refuse_unknown(("step", *own))
+    section.refuse_unknown(("step", _OFF, *own))
     given = {}
     for name, field in own.items():
         if name in section.values or field.default is MISSING:
             given[name] = _READ[str(field.type)](section, name)
     step: Step = kind(**given)
     return step
+
+
+def is_off(section: Section) -> bool:
+    """Whether a step stands in the list and is not done.
+
+    Raises:
+        BadInput: it says neither true nor false.
+    """
+    value = section.values.get(_OFF, False)
+    if not isinstance(value, bool):
+        raise BadInput(
+            f"{section.place}: {_OFF} = {value!r} is neither true nor false; write {_OFF} = true, or remove it"
+        )
+    return value
 
 
 def values_of(step: Step) -> dict[str, object]:

@@ -41,18 +41,18 @@ def project(tmp_path: Path) -> Path:
     return folder
 
 
-def tell(project: Path, step: str, fit: float) -> None:
-    """What a job writes when it has a step."""
-    told = {"step": step, "fit": fit, "validate": 0.8 * fit, "criteria": {}, "passes": False, "cost": fit**2}
-    line = {"seconds": 1.0, "stage": "refitting the model", "text": f"{step} {fit}", "step": told}
+def tell(project: Path, error: float, *names: str) -> None:
+    """What a job writes when it has tried a point."""
+    trial = {"names": names, "error": error, "values": {"k": 40 + error}}
+    line = {"seconds": 1.0, "stage": "refitting the model", "text": "", "step": None, "trial": trial}
     with (project / "results/diagnose/events.jsonl").open("a") as file:
         file.write(json.dumps(line) + "\n")
 
 
-def drawn(tab: Tab, number: str) -> None:
-    """Wait until the staircase shows a number; a page that hangs never does."""
-    words = tab.page.locator(".chart .annotation-text", has_text=re.compile(f"^{re.escape(number)}$"))
-    words.wait_for(state="attached", timeout=_PATIENCE)
+def shown_points(tab: Tab, count: int) -> None:
+    """Wait until the curves have so many points; a page that hangs never has."""
+    drawn = "document.querySelector('.chart[aria-label^=Residual]')?.data?.flatMap((one) => one.x).length"
+    tab.page.wait_for_function(f"{drawn} === {count}", timeout=_PATIENCE)
 
 
 @pytest.fixture
@@ -66,35 +66,41 @@ def tab(shown: Shown, show: Show, project: Path) -> Iterator[Tab]:
     assert found.errors == []
 
 
-def test_the_staircase_moves_while_the_fit_runs(tab: Tab, project: Path) -> None:
+def test_a_curve_and_its_numbers_move_while_the_search_runs(tab: Tab, project: Path) -> None:
     tab.page.wait_for_function("document.title === '… Add – Workbench'")
     tab.page.get_by_role("button", name="Stop").evaluate("(el) => (el.dataset.mark = 'the same')")
-    drawn(tab, "noise alone")  # the place of the first step, before the process tells anything
-    for step, fit, number in (("prior", 63.8, "63.8"), ("refit", 20.3, "20.3"), ("toy.friction", 0.97, "0.97")):
-        tell(project, step, fit)
-        drawn(tab, number)
+    for count, (error, names) in enumerate(((63.8, ()), (20.3, ()), (0.97, ("toy.friction",))), 1):
+        tell(project, error, *names)
+        shown_points(tab, count)
+        tab.see(f"Best so far: {' + '.join(names) or 'base model'} leaves {error:.3g} times the noise.")
+        tab.page.get_by_role("cell", name=f"{40 + error:.4g}", exact=True).wait_for()
+    assert tab.page.locator(".table tbody").first.inner_text().startswith("toy.friction")
     assert tab.page.locator(".chart .main-svg").count() == 3  # one figure: below, above, and what hovers
     tab.page.locator(".job .time", has_text=re.compile("0:0[1-9]|0:[1-5]|[1-9]:")).wait_for()
     tab.page.locator(".job button[data-mark='the same']").wait_for()  # a button that is made anew loses presses
     tab.shot("running")
 
 
-def test_what_a_stopped_fit_had_found_stays_until_it_is_found_again(tab: Tab, project: Path) -> None:
-    tell(project, "prior", 63.8)
-    tell(project, "refit", 0.97)
+def test_a_stop_keeps_the_best_and_undo_takes_it_back(tab: Tab, project: Path) -> None:
+    for error in (63.8, 20.3, 20.3):
+        tell(project, error)
+    tell(project, 0.97, "toy.friction")
     tab.page.reload()  # in the middle
-    drawn(tab, "0.97")
+    shown_points(tab, 4)
     tab.press("Stop")
     tab.see("was stopped; what it had found is kept")
     tab.page.reload()
-    drawn(tab, "0.97")
-    assert tab.page.get_by_text("Nothing was fitted yet").count() == 0
+    shown_points(tab, 4)
+    tab.press("Keep its best values (20.3 × noise)")
+    tab.page.get_by_text("was stopped").wait_for(state="detached")
+    assert Project(project).values() == {"k": 60.3}
+    tab.page.keyboard.press("Control+z")
+    tab.see("was stopped; what it had found is kept")
+    assert Project(project).values() == {}
     tab.press("Go on")
     tab.see("Stop")
-    drawn(tab, "0.97")
-    tell(project, "prior", 55.5)
-    drawn(tab, "55.5")
-    drawn(tab, "0.97")
+    tell(project, 55.5)
+    shown_points(tab, 1)
 
 
 def test_a_result_of_another_version_says_what_to_do(shown: Shown, show: Show, project: Path) -> None:
@@ -110,8 +116,9 @@ def test_a_result_of_another_version_says_what_to_do(shown: Shown, show: Show, p
     assert tab.errors == []
 
 
-def test_a_figure_follows_the_look_and_the_window(tab: Tab) -> None:
-    drawn(tab, "noise alone")
+def test_a_figure_follows_the_look_and_the_window(tab: Tab, project: Path) -> None:
+    tell(project, 63.8)
+    shown_points(tab, 1)
     _follows_the_look(tab)
     _follows_the_window(tab)
 

@@ -5,13 +5,14 @@ import os
 import re
 import time
 from collections.abc import Callable, Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
 from pysim.app import jobs
 from pysim.app.began import began
-from pysim.app.jobs import DONE, FAILED, RUNNING, STOPPED, Runner, Work, adding, read_job, settle, works
+from pysim.app.jobs import DONE, FAILED, RUNNING, STOPPED, Job, Runner, Work, adding, read_job, settle, works
 from pysim.app.processes import Started
 from pysim.app.project import Project
 from pysim.types import BadInput
@@ -87,7 +88,8 @@ def test_what_failed_says_why_and_the_next_work_is_done(code: str, words: str, p
 
 def test_one_at_a_time_and_stopped_with_all_that_it_has_started(project: Project, begun: Begun) -> None:
     runner = begun()
-    line = json.dumps({"seconds": 1, "stage": "refitting", "text": "a", "step": {"step": "prior"}})
+    trial = {"names": [], "error": 2.0, "values": {"k": 3.0}}
+    line = json.dumps({"seconds": 1, "stage": "refitting", "text": "a", "step": None, "trial": trial})
     code = f"open('results/try/events.jsonl', 'w').write({line + chr(10)!r} + '{{\"half')\n"
     runner.start(work(project, code + PARENT))
     with pytest.raises(BadInput, match="Try is running; wait for it, or stop it first"):
@@ -95,8 +97,8 @@ def test_one_at_a_time_and_stopped_with_all_that_it_has_started(project: Project
     number = child(project.folder)
     runner.poll()
     assert runner.running is not None
-    assert (runner.running.stage, runner.running.learned) == ("refitting", ("a",))
-    assert runner.running.steps == ({"step": "prior"},)
+    assert runner.running.stage == "refitting"
+    assert runner.running.trials == (trial,)
     runner.stop()
     wait(runner)
     job = read_job(project.results("try"))
@@ -243,29 +245,10 @@ def parse(*lines: tuple[str, ...]) -> None:
         assert argument_parser().parse_args(list(words)).command == words[0]
 
 
-def test_what_goes_on_keeps_its_steps_until_it_has_found_them_again(project: Project, begun: Begun) -> None:
-    def line(step: str) -> str:
-        return json.dumps({"seconds": 1, "stage": "s", "text": "t", "step": {"step": step}}) + "\n"
-
-    folder, runner = project.results("try"), begun()
-    events = folder / "events.jsonl"
-    for told, seen in (
-        (["a", "b", "c"], "abc"),
-        (["d"], "dbc"),
-        ([], "abc"),
-        (["e", "f", "g", "h"], "efgh"),
-    ):
-        text = "".join(line(step) for step in told)
-        runner.start(
-            work(project, f"open('results/try/events.jsonl', 'w').write({text!r}); import time; time.sleep(60)")
-        )
-        while not events.exists() or len(events.read_text()) < len(text):
-            time.sleep(0.01)
-        runner.poll()
-        assert runner.running is not None
-        assert "".join(step["step"] for step in runner.running.steps) == seen
-        runner.stop()
-        wait(runner)
-        job = read_job(folder)
-        assert job is not None
-        assert "".join(step["step"] for step in job.steps) == seen
+def test_the_best_point_is_the_models_own_and_the_lowest() -> None:
+    trials = [([], 8.0), ([], 3.0), ([], 5.0), (["toy.friction"], 1.0)]
+    told = tuple({"names": names, "error": error, "values": {"k": error}} for names, error in trials)
+    job = Job(Work("compare", "Compare", ("compare",)), RUNNING, 0.0, None, "", trials=told)
+    assert job.best is not None
+    assert job.best["values"] == {"k": 3.0}
+    assert replace(job, trials=told[-1:]).best is None

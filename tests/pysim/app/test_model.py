@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.app.followed import Followed
+from pysim.app.jobs import works
 from pysim.app.project import Project, Settings
 from pysim.io import in_model_units, write_dataset
 from pysim.types import BadInput
@@ -73,6 +74,22 @@ def test_every_curve_follows_a_slider_and_what_is_let_go_is_kept(shown: Shown, s
     tab.page.get_by_label("fit k").uncheck()
     tab.page.wait_for_timeout(500)
     assert "k" not in project.settings().free
+    tab.page.get_by_label("fit k").check()
+    tab.page.get_by_label("max of k").fill("300")
+    tab.page.get_by_label("max of k").press("Tab")
+    tab.page.wait_for_timeout(500)
+    assert project.settings().ranges == {"k": (1.0, 300.0)}
+    assert 100 < int(tab.page.get_by_label("slider of k").input_value()) < 900  # 100 is no longer its max
+    assert "--bounds k=1.0:300.0" in " ".join(works(project)["compare"].words)
+    tab.page.get_by_label("how the logs begin").select_option("anywhere, estimated")
+    tab.page.wait_for_timeout(500)
+    assert {record.initial for record in data_of(project.data).records} == {"estimate"}
+    tab.page.keyboard.press("Control+z")
+    tab.page.wait_for_timeout(700)
+    assert {record.initial for record in data_of(project.data).records} == {None}
+    tab.page.get_by_label("min of k").fill("400")
+    tab.page.get_by_label("min of k").press("Tab")
+    tab.see("is no range; give a smaller min, or a larger max")
     tab.press("All as the model has them")
     tab.page.wait_for_function(f"Number(document.querySelector('.chart').dataset.move) > {MOVES + 4}")
     assert chart.evaluate(curve) == pytest.approx(before)

@@ -5,12 +5,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from pysim import present
 from pysim.app.answers import Answers, history
 from pysim.app.jobs import ANSWER, RECORDS
 from pysim.app.project import Project
-from pysim.app.records import compared_overlay, measured_overlay, stage_keys
+from pysim.app.records import compared_overlay, decimated, measured_overlay, stage_keys, window
 from pysim.io import write_stages
 from pysim.present.diagnosis.figures.error import error_chart
 from pysim.present.parameters import parameters_chart
@@ -87,12 +89,11 @@ def test_before_anything_was_compared_the_log_alone_is_shown() -> None:
     assert np.array_equal(overlay.lines[0].time, np.arange(2.0))
 
 
-def test_the_picture_of_the_error_shows_every_error_and_what_is_being_worked_on() -> None:
+def test_the_picture_of_the_error_shows_every_error() -> None:
     steps = present.data(found_offset())["error"]
-    figure = error_chart([read_step(step) for step in steps], doing="<b>screening</b>")  # type: ignore[attr-defined]
+    figure = error_chart([read_step(step) for step in steps])  # type: ignore[attr-defined]
     told = [note["text"] for note in figure["layout"]["annotations"]]
     assert told[:6] == ["<b>8.10</b>", "<b>8.00</b>", "<b>4.20</b>", "<b>3.20</b>", "<b>1.01</b>", "<b>1.00</b>"]
-    assert figure["layout"]["xaxis"]["ticktext"][-1] == "<i>&lt;b&gt;screening&lt;/b&gt; …</i>"
 
 
 def test_parameters_stand_between_their_bounds() -> None:
@@ -100,3 +101,28 @@ def test_parameters_stand_between_their_bounds() -> None:
     (before,) = parameters_chart([row])["data"]
     assert before["x"] == [20.0]
     assert (before["error_x"]["array"], before["error_x"]["arrayminus"]) == ([20.0], [10.0])
+
+
+@given(st.integers(2000, 20000), st.integers(4, 1600), st.integers(0, 2**31))
+def test_every_peak_is_kept_among_few_points(count: int, most: int, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    time, values = np.arange(count) * 0.01, rng.standard_normal(count)
+    x, y = decimated(time, values, most)
+    assert x.size <= max(most, 4)
+    assert (y.min(), y.max()) == (values.min(), values.max())
+    assert (x[0], x[-1]) == (time[0], time[-1])
+    assert np.all(np.diff(x) > 0)
+    assert np.array_equal(values[np.searchsorted(time, x)], y)  # samples, nothing in between
+
+
+def test_few_samples_come_back_as_they_are() -> None:
+    time, values = np.arange(50.0), np.arange(50.0) ** 2
+    x, y = decimated(time, values, 50)
+    assert x is time
+    assert y is values
+
+
+def test_a_window_reaches_over_both_edges() -> None:
+    time = np.arange(10.0)
+    assert window(time, 2.5, 5.5) == slice(2, 8)
+    assert window(time, -5.0, 50.0) == slice(0, 10)

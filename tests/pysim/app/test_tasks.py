@@ -75,7 +75,7 @@ def test_a_report_is_drawn_when_it_is_asked_for_and_after_a_restart_too(
 
 def test_models_and_data_are_opened_once_while_they_stay_as_they_are(project: Project) -> None:
     own = Tasks(project.folder)
-    assert own._opened() is own._opened()
-    before = own._opened()
+    assert own._opened(()) is own._opened(())
+    before = own._opened(())
     (project.models / "Toy.mo").write_text(f"{TEXT}\n")
-    assert own._opened() is not before
+    assert own._opened(()) is not before

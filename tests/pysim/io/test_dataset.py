@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from pysim.io import read_dataset, read_dataset_partly
+from pysim.io import read_dataset, read_described
 from pysim.io.units import SI
 from pysim.types import BadInput
 
@@ -218,7 +218,8 @@ def test_what_stands_for_the_measurements_is_named(folder: Path) -> None:
 
 def test_a_faulty_record_does_not_keep_the_others_from_being_read(folder: Path) -> None:
     (folder / "O+25_A5.csv").write_text("0.1,0.0,-1\n1,open,-170\n")
-    data, refused = read_dataset_partly(folder)
+    found = read_described(folder, partly=True)
+    data, refused = found.raw, found.refused
     assert [record.source for record in data.records] == ["sub/reordered.txt"]
     ((file, why),) = refused
     assert file == "O+25_A5.csv"
@@ -228,4 +229,4 @@ def test_a_faulty_record_does_not_keep_the_others_from_being_read(folder: Path) 
 def test_a_wrong_description_is_refused_as_a_whole(folder: Path) -> None:
     (folder / "dataset.toml").write_text(TOML.replace('role = "output"', 'role = "exit"'))
     with pytest.raises(BadInput, match="role = 'exit'"):
-        read_dataset_partly(folder)
+        read_described(folder, partly=True)

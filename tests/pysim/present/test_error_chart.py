@@ -11,12 +11,12 @@ STEPS = [
 ]
 
 
-def test_the_staircase_has_every_step_and_an_empty_one_for_what_is_being_found() -> None:
-    found = error_chart(STEPS, doing="refitting")
+def test_the_staircase_has_every_step() -> None:
+    found = error_chart(STEPS)
     assert [v for v in trace(found, "fitted")["y"] if v is not None] == [64, 64, 20, 20, 1, 1]
     words = [note["text"] for note in found["layout"]["annotations"]]
     assert {"<b>64</b>", "<b>46</b>", "<b>20</b>", "<b>1.00</b>", "<b>0.90</b>", "noise alone"} == set(words)
-    assert found["layout"]["xaxis"]["ticktext"] == ["as it is", "refitted", "+ a&lt;b&gt;", "<i>refitting …</i>"]
+    assert found["layout"]["xaxis"]["ticktext"] == ["as it is", "refitted", "+ a&lt;b&gt;"]
     low, high = found["layout"]["yaxis"]["range"]
     assert 10**low < 0.9 < 64 < 10**high
 
@@ -30,11 +30,3 @@ def test_logs_that_nobody_looked_at_have_a_line_of_their_own() -> None:
     shifts = {note["text"]: (note.get("xshift", 0), note.get("yshift", 0)) for note in found["layout"]["annotations"]}
     assert shifts["<b>8.00</b>"][1] > 0 > shifts["<b>7.00</b>"][1]
     assert shifts["<b>7.50</b>"][0] > 0
-
-
-def test_a_staircase_begins_with_the_place_of_its_first_step() -> None:
-    found = error_chart([], doing="starting")
-    assert found["data"] == []
-    assert found["layout"]["xaxis"]["ticktext"] == ["<i>starting …</i>"]
-    box = found["layout"]["shapes"][1]
-    assert box["x0"] < 0 < box["x1"]

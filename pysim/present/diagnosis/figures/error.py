@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from textwrap import wrap
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,7 +22,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _LOW = 0.6  # of the smallest value: room for its number below the line
-_TICKS = tuple(digit * 10.0**power for power in range(-2, 7) for digit in (1, 2, 5))
+TICKS = tuple(digit * 10.0**power for power in range(-2, 7) for digit in (1, 2, 5))
 # Of a chart, by the use of logs: colour, dash and mark of its line, and where numbers stand that must not meet.
 _MOVING = (("@final", "solid", "circle"), ("@base", "dash", "square"), ("@measured", "dot", "diamond"))
 _LOOKS = dict(zip(USES.values(), _MOVING, strict=True))
@@ -52,7 +51,7 @@ def levels(steps: Sequence[ErrorStep]) -> Levels:
     known = [value for values in lines.values() for value in values if value]
     low, high = min([_LOW, *(_LOW * v for v in known)]), max([1.6, *(1.7 * v for v in known)])
     shown = {use: values for use, values in lines.items() if any(value is not None for value in values)}
-    return Levels(shown, low, high, tuple(t for t in _TICKS if low <= t <= high))
+    return Levels(shown, low, high, tuple(t for t in TICKS if low <= t <= high))
 
 
 def error_figure(steps: Sequence[ErrorStep]) -> Figure:
@@ -118,29 +117,22 @@ def _numbers(axes: Axes, i: int, step: ErrorStep) -> None:
         style.small_text(axes, size_text(value), (i, value), away, ha=ha, va=va, color=colour)
 
 
-def error_chart(steps: Sequence[ErrorStep], *, doing: str = "") -> Chart:
-    """The error over noise, step by step, of each use of logs; what is being worked on stands last, empty.
+def error_chart(steps: Sequence[ErrorStep]) -> Chart:
+    """The error over noise, step by step, of each use of logs.
 
     Args:
         steps: of the error history.
-        doing: name of the step that is being found; "" where nothing runs.
     """
     names = [plain(step_name(step.step)) for step in steps]
     found = levels(steps)
     notes = [note for k in range(len(steps)) for note in _notes(k, {u: v[k] for u, v in found.lines.items()})]
     noise = {"xref": "paper", "x": 0.004, "y": math.log10(1.0), "text": "noise alone", "showarrow": False}
     notes.append({**noise, "xanchor": "left", "yanchor": "top", "font": {"size": 11.5, "color": "@quiet"}})
-    shapes = [level_band(found.low, 1)]
-    if doing:
-        names.append(f"<i>{'<br>'.join(plain(line) for line in wrap(doing, 20))} …</i>")
-        begin = len(steps) - 0.5
-        box = {"type": "rect", "x0": begin + 0.06, "x1": begin + 0.94, "yref": "paper", "y0": 0.02, "y1": 0.98}
-        shapes.append({**box, "line": {"color": "@quiet", "width": 1.2, "dash": "dot"}, "fillcolor": "@raised"})
     return chart(
         [trace for use, values in found.lines.items() for trace in _stairs(use, values)],
         xaxis=step_axis(names),
         yaxis=size_axis("Error over noise (–)", found.low, found.high, found.ticks),
-        shapes=shapes,
+        shapes=[level_band(found.low, 1)],
         annotations=notes,
         margin={"l": 62, "r": 18, "t": 34, "b": 30},
     )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -61,11 +61,12 @@ def _density(axes: Axes, samples: NDArray[np.float64], knots: NDArray[np.float64
     axes.set_ylabel("Data", fontsize=style.SMALL)
 
 
-def law_chart(law: Mapping[str, Any]) -> Chart:
+def law_chart(law: Mapping[str, Any], written: Sequence[float] | None = None) -> Chart:
     """The curve over what it depends on, with its 95 percent band.
 
     Args:
         law: of `missing` in the answer.
+        written: another law at the same places, as a user wrote it.
     """
     shape = law["shape"]
     (unit_in, scale_in), (unit_out, scale_out) = shown_unit(shape["argument_unit"]), shown_unit(shape["unit"])
@@ -73,8 +74,12 @@ def law_chart(law: Mapping[str, Any]) -> Chart:
     y, low, high = ([v * scale_out for v in shape[name]] for name in ("value", "low", "high"))
     line: dict[str, Any] = {"x": x, "y": y, "mode": "lines+markers", "name": "learned law"}
     line |= {"line": {"color": "@final", "width": 2.5}, "marker": {"size": 6, "color": "@final"}}
+    lines = [between(x, low, high, "@finalband", name="95 % band"), line]
+    if written is not None:
+        look = {"mode": "lines", "name": "as written", "line": {"color": "@base", "width": 2.5, "dash": "dash"}}
+        lines.append({"x": x, "y": [v * scale_out for v in written], **look})
     return chart(
-        [between(x, low, high, "@finalband", name="95 % band"), line],
+        lines,
         xaxis=axis(f"{plain(law['depends_on'])} ({unit_text(unit_in)})"),
         yaxis=axis(f"missing at {plain(law['slot'])} ({unit_text(unit_out)})"),
         shapes=[level_line(0, "@line", 1)],

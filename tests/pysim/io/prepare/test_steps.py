@@ -24,6 +24,7 @@ from pysim.io.prepare import (
     Split,
     Trim,
     call,
+    is_off,
     prepared,
     step_of,
     step_typed,
@@ -260,7 +261,15 @@ def test_a_word_that_is_no_step_is_refused(word: str, message: str) -> None:
 def test_a_misspelt_step_is_refused() -> None:
     with pytest.raises(BadInput, match="place: step = 'flop' is not known; use one of trim, "):
         step_of(Section("place", {"step": "flop"}))
-    with pytest.raises(BadInput, match="place: the key 'signal' is not known; use step, signals"):
+    with pytest.raises(BadInput, match="place: the key 'signal' is not known; use step, off, signals"):
         step_of(Section("place", {"step": "flip", "signal": "x"}))
     with pytest.raises(BadInput, match="hz is missing"):
         step_of(Section("place", {"step": "resample"}))
+
+
+def test_a_step_that_is_off_says_so_with_true_or_false() -> None:
+    assert [is_off(Section("place", {"step": "flip", **more})) for more in ({}, {"off": False}, {"off": True})] == [
+        False, False, True,
+    ]  # fmt: skip
+    with pytest.raises(BadInput, match="place: off = 1 is neither true nor false"):
+        is_off(Section("place", {"step": "flip", "off": 1}))

@@ -1,0 +1,56 @@
+"""A search while it runs, on every page that can start one: what each model leaves, and the numbers of the best."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pysim.app.desk import Desk
+from pysim.app.jobs import Job
+from pysim.app.parts import Chart, Table, box, card, live, text
+from pysim.present.diagnosis.figures.search import left_over, search_chart
+
+
+def moving(desk: Desk) -> None:
+    """The search that runs, or that was stopped; nothing where there is none."""
+    live(lambda: desk.version, lambda: None if _job(desk) is None else _Moving(desk), "gap")
+
+
+def _job(desk: Desk) -> Job | None:
+    return desk.runner.running or desk.unfinished()
+
+
+class _Moving:
+    """One figure and two tables that follow the points."""
+
+    def __init__(self, desk: Desk) -> None:
+        self._desk = desk
+        with card() as self._place:
+            self._head = text("h2", "")
+            self._words = text("p", "", "statement").props('aria-live="polite"')
+            self._chart = Chart(search_chart(()), "Residual over noise, point by point", height=300)
+            with box("two"):
+                self._left = _table("What each model leaves", "model", "× noise")
+                self._values = _table("Parameters of the best one", "parameter", "value")
+        live(lambda: (desk.beat, desk.version), self.show)
+
+    def show(self) -> None:
+        """What is known now."""
+        job = _job(self._desk)
+        self._place.set_visibility(job is not None and bool(job.trials))
+        if job is None or not job.trials:
+            return
+        ranked = left_over(job.trials)
+        best = min(job.trials, key=lambda one: float(one["error"]))
+        self._head.set_text(job.work.title)
+        self._words.set_text(f"Best so far: {ranked[0][0]} leaves {ranked[0][1]:.3g} times the noise.")
+        self._chart.show(search_chart(job.trials), f"Residual over noise: {ranked[0][0]} {ranked[0][1]:.3g}")
+        self._left.show([[name, _cell(error)] for name, error in ranked])
+        self._values.show([[name, _cell(value)] for name, value in best["values"].items()])
+
+
+def _table(label: str, *columns: str) -> Table:
+    return Table(label, [(columns[0], "words"), (columns[1], "number")], (), height="240px")
+
+
+def _cell(value: float) -> dict[str, Any]:
+    return {"text": f"{value:.4g}", "value": value}

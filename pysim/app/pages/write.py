@@ -1,0 +1,122 @@
+"""A law that is typed for a slot: drawn over the learned curve, its parameters as rows, a mistake at its place."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from functools import partial
+from typing import Any
+
+from nicegui import background_tasks, run, ui
+
+from pysim.app.desk import Desk
+from pysim.app.pages.common import amount, busy
+from pysim.app.parts import Chart, box, button, live, say, text
+from pysim.present.diagnosis.figures.law import law_chart
+from pysim.types import BadInput
+from pysim.workflow import LawPlace, typed_law
+
+_EMIT = "(e) => emit(e.target.value)"
+_NUMBERS = ((0, "lowest"), (2, "usual"), (1, "highest"))  # of a range
+
+
+class Writing:
+    """One tab's law for one slot.
+
+    Args:
+        learned: the law that was learned there, if one was.
+        chart: that shows it.
+    """
+
+    def __init__(self, desk: Desk, slot: str, learned: Mapping[str, Any] | None, chart: Chart | None) -> None:
+        self._desk, self._learned, self._chart = desk, learned, chart
+        project, model = desk.project, desk.model or {}
+        self._law, self._name, self._trouble, self._wrong = "", f"my.{slot}", "", -1
+        self._ranges: dict[str, Any] = {}  # as they are shown
+        self._chosen: dict[str, Any] = {}  # by the user
+        self._version = self._asked = 0
+        try:
+            libraries = [project.folder / one for one in project.settings().libraries]
+            self._place = LawPlace.of(str(model["class"]), slot, libraries)
+        except (BadInput, KeyError):
+            return
+        self._build()
+
+    def _build(self) -> None:
+        slot = self._place.slot
+        text("h3", f"Write a law for {slot.name}")
+        words = ", ".join(f"{name} ({self._place.units.get(name) or 'any unit'})" for name in (*slot.sees, "time"))
+        gives = ", ".join(f"{name} ({self._place.units.get(name) or 'any unit'})" for name in slot.gives)
+        text("p", f"It gives {gives}. It may use {words}. Any other name becomes a parameter.", "small")
+        field = ui.element("textarea").classes("field mono").props("rows=2 spellcheck=false autocomplete=off")
+        field._props["aria-label"] = f"law for {slot.name}"
+        field._props["placeholder"] = f"-F_c*tanh({slot.sees[-1] if slot.sees else 'time'}/v_0)"
+        field.on("input", lambda event: self._typed(str(event.args)), js_handler=_EMIT)
+        live(lambda: self._version, self._rows, "tight")
+
+    def _typed(self, law: str) -> None:
+        """The last letter wins: those that came while one text was read are left out."""
+        self._law = law
+        self._asked += 1
+        if self._asked == self._version + 1:
+            background_tasks.create(self._read())
+
+    async def _read(self) -> None:
+        while self._version < self._asked:
+            asked, law = self._asked, self._law
+            self._trouble, self._wrong, curve = "", -1, None
+            try:
+                found = await run.io_bound(typed_law, law, self._place, self._learned, self._chosen)
+                if found is None:  # the server ends
+                    return
+                self._ranges, curve = dict(found.ranges), found.curve
+            except BadInput as error:
+                self._trouble, self._wrong = str(error) if law.strip() else "", getattr(error, "place", -1)
+            if self._chart is not None and self._learned is not None:
+                written = None if curve is None else curve.tolist()
+                self._chart.show(law_chart(self._learned, written), f"Learned law, and the one written: {law}")
+            self._version = asked
+
+    def _rows(self) -> None:
+        """What is wrong, or the parameters and the button that adds the law."""
+        if self._trouble:
+            with box("note bad").props('role="alert"'):
+                with box("mono", "p"):
+                    text("span", self._law[: self._wrong] if self._wrong > 0 else "")
+                    text("mark", self._law[max(self._wrong, 0) :] or " ")
+                text("p", self._trouble)
+        elif self._law.strip():
+            if self._ranges:
+                with box("form").style("grid-template-columns: 1fr 1fr 1fr 1fr 0.8fr"):
+                    for words in ("parameter", *(words for _, words in _NUMBERS), "unit"):
+                        text("span", words, "head")
+                    for name in self._ranges:
+                        self._row(name)
+            with box("row"):
+                field = ui.element("input").classes("field").props("type=text").style("width: 180px")
+                field._props["aria-label"], field._props["value"] = "name of the law", self._name
+                field.on("change", lambda event: setattr(self, "_name", str(event.args).strip()), js_handler=_EMIT)
+                button("Add and refit", self._add, "main", off=busy(self._desk))
+
+    def _row(self, name: str) -> None:
+        text("span", name, "mono")
+        for k, words in _NUMBERS:
+            value = float(f"{self._ranges[name][k]:.4g}")
+            amount(value, partial(self._choose, name, k), f"{words} of {name}", signed=True)
+        unit = ui.element("input").props("type=text")
+        unit._props["aria-label"], unit._props["value"] = f"unit of {name}", self._ranges[name][3]
+        unit.on("change", lambda event: self._choose(name, 3, str(event.args).strip()), js_handler=_EMIT)
+
+    def _choose(self, name: str, number: int, value: Any) -> None:
+        """A range that the user has set stays while the law is written on."""
+        own = [*self._ranges[name]]
+        own[number] = own[number] if value is None else value
+        self._chosen[name] = own
+        self._typed(self._law)
+
+    async def _add(self) -> None:
+        try:
+            await self._desk.add_law(self._name, self._place, self._law, self._ranges)
+        except (BadInput, OSError) as error:
+            say(str(error), bad=True)
+        else:
+            ui.navigate.to("/add")

@@ -1,0 +1,61 @@
+"""A law is typed on the page: drawn over the learned curve, its mistake shown at its place, added and refitted."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from pysim.app.project import Project, Settings
+from pysim.io import write_dataset
+from tests.pysim.app.browser import Show, Shown, Tab, artefacts
+from tests.toy import TEXT, measured
+
+PATIENCE = 60.0  # s, on a machine that does other things too
+F_C = 0.4  # N
+LAW = "-F*tanh(v/0.02)"
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Project:
+    """A mass that rubs, whose model does not."""
+    one = Project.at(tmp_path / "project")
+    write_dataset(one.data, measured(1, "toy.friction", F_c=F_C))
+    one.models.mkdir()
+    (one.models / "Toy.mo").write_text(TEXT)
+    one.save(Settings(model="Toy.Mass", libraries=("model/Toy.mo",)))
+    return one
+
+
+@pytest.mark.slow
+def test_a_law_is_written_over_the_learned_curve_and_added(shown: Shown, show: Show, project: Project) -> None:
+    tab = Tab(shown, show(project.folder), artefacts())
+    tab.see("effects that fit")
+    tab.go("Locate")
+    tab.page.get_by_role("button", name="Locate", disabled=False).click()
+    tab.see("What force would need", timeout=PATIENCE)
+    field = tab.page.get_by_label("law for force")
+    field.press_sequentially("-F*tan(v/0.02)")
+    tab.see("tan is no function that the law may use; did you mean tanh?")
+    assert tab.page.locator("mark").inner_text() == "tan(v/0.02)"
+    tab.shot("write-mistake")
+    field.fill(LAW)
+    usual = tab.page.get_by_label("usual of F")
+    usual.wait_for()
+    assert float(usual.input_value()) == pytest.approx(F_C, rel=0.2)
+    assert tab.page.get_by_label("unit of F").input_value() == "N"
+    chart = tab.page.locator(".chart[aria-label^='Learned law, and the one written']")
+    assert chart.evaluate("(el) => el.data.map((one) => one.name)") == ["95 % band", "learned law", "as written"]
+    tab.shot("write")
+    tab.page.get_by_label("name of the law").fill("my.rubbing")
+    tab.press("Add and refit")
+    tab.see("Undo my.rubbing", timeout=PATIENCE)
+    numbers = tab.page.locator(".chart .annotation-text").all_text_contents()
+    assert min(float(one) for one in numbers if one[:1].isdigit()) < 1.1  # nothing but noise is left
+    assert project.settings().added == ("my.rubbing",)
+    tab.go("Take away")
+    assert "--library laws/MyRubbing.mo --effects my.rubbing" in tab.page.locator("pre").last.inner_text()
+    tab.go("Add")
+    tab.page.keyboard.press("Control+z")
+    tab.page.get_by_role("button", name=re.compile("^Undo my")).wait_for(state="detached")
+    assert project.settings().added == ()
+    assert tab.errors == []
