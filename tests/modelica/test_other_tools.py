@@ -19,7 +19,15 @@ from tests.modelica.library import LIBRARY, models_in
 
 PACKAGES = ("Examples", "Validation", "Pump", "LoadCircuit", "Crane", "Controllers")
 INSIDE_OTHERS = {  # parts that need values or something at their connectors
-    *("Pump.A4VSG", "Pump.BlackBoxPlate", "Pump.ControlPiston", "Pump.ControllerCard", "Pump.GreyBoxPlate"),
+    *(
+        "Pump.A4VSG",
+        "Pump.A4VSGCoupled",
+        "Pump.PistonPull",
+        "Pump.BlackBoxPlate",
+        "Pump.ControlPiston",
+        "Pump.ControllerCard",
+        "Pump.GreyBoxPlate",
+    ),
     *("Pump.MeanFlow", "Pump.PadeDeadTime", "Pump.PistonKinematicsFlow", "Pump.SecondOrderSpool"),
     *("Pump.SimplifiedRippleFlow", "Pump.SwashPlateLinkage", "Pump.TransportDelay", "LoadCircuit.PulseCounter"),
     *("Crane.Payload", "Crane.VesselDrum"),

@@ -66,7 +66,7 @@ def test_a_law_of_another_variable_has_no_curve_but_its_parameters(place: LawPla
     ("law", "at", "said"),
     [
         ("-F_c*tan(v)", 5, "tan is no function"),
-        ("-F_c*tanh(v", 0, "law"),
+        ("-F_c*tanh(v", 11, "law"),
         ("f = -F_c*v; g", 12, "law"),
         ("v - 2*x", 0, "takes"),
         ("", 0, "law"),

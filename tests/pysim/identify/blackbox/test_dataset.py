@@ -54,7 +54,7 @@ def test_what_is_held_out_is_not_fitted_but_compared() -> None:
     assert deviations[0].value == pytest.approx(20 * np.log10(1.1), rel=0.02)
     exact = fit_dataset(dataset(table(0, 1), table(0, 1, "validate"), table(5, 1, "validate")), Structure(2))
     assert [len(one.held_out) for one in exact] == [1]
-    with pytest.raises(BadInput, match="leave some to be fitted"):
+    with pytest.raises(BadInput, match="none of its responses is to be fitted"):
         fit_dataset(dataset(table(0, 1, "validate")), Structure(2))
 
 
