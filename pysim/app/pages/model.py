@@ -39,6 +39,7 @@ class _Follows:
     def __init__(self, desk: Desk) -> None:
         self._desk, self.number = desk, 0
         self._values: dict[str, float] = {}
+        self._known: list[dict[str, Any]] = []
         self._moves, self._shown = 0, -1
         self._asking = False
         self._chart: Chart | None = None
@@ -63,20 +64,28 @@ class _Follows:
                 button("All as the model has them", lambda: attempt(self._reset), "small")
         with card("Initial states"), box("row"):
             text("span", "The logs begin")
-            now = begins(read_description(self._desk.project.description))
-            with box("form").style("width: 220px"):
-                options = [*BEGINS] if now else ["", *BEGINS]
-                Choice("how the logs begin", options, now, lambda one: self._begin(one))
+            live(lambda: self._desk.version, self._beginning)  # a choice may be undone at once
             text("span", "Near rest: estimated, and expected close to the model at rest.", "small")
-        self._values, self._shown = self._all(), -1
+        self._known, self._values, self._shown = self._ends(), self._all(), -1
         self._ask()
+
+    def _beginning(self) -> None:
+        now = begins(read_description(self._desk.project.description))
+        with box("form").style("width: 220px"):
+            Choice("how the logs begin", [*BEGINS] if now else ["", *BEGINS], now, lambda one: self._begin(one))
 
     def told(self) -> None:
         """What is in the project now, though another tab, or undo, has written it."""
-        if self._sliders is not None and self._values != self._all():
+        moved = self._values != self._all()
+        if self._sliders is not None and (moved or self._known != self._ends()):
             self._values = self._all()
-            self._sliders.show(self._rows())
-            self._ask()
+            self._show()
+            if moved:
+                self._ask()
+
+    def _ends(self) -> list[dict[str, Any]]:
+        """All that the rows say but for the values."""
+        return [{**row, "value": None} for row in self._rows()]
 
     def _look(self, number: int) -> None:
         self.number = number
@@ -120,8 +129,7 @@ class _Follows:
             self._desk.change(bounds=(*others, f"{name}={low_!r}:{high_!r}"))
 
         attempt(put)
-        if self._sliders is not None:
-            self._sliders.show(self._rows())
+        self._show()
 
     def _fit(self, name: str, on: bool) -> None:
         """Let a fit change a parameter, or leave it."""
@@ -131,7 +139,12 @@ class _Follows:
             say("nothing would be fitted; leave at least one parameter ticked", bad=True)
         else:
             attempt(lambda: self._desk.change(free=free))
+        self._show()
+
+    def _show(self) -> None:
+        """The rows as the project has them."""
         if self._sliders is not None:
+            self._known = self._ends()
             self._sliders.show(self._rows())
 
     def _moved(self, name: str, value: float, done: bool) -> None:
