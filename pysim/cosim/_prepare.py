@@ -75,8 +75,9 @@ def check_heard(system: System, recorded: Collection[str], idle: Sequence[str] =
     Raises:
         BadInput: one has none.
     """
+    silent = unheard(system, recorded)
     for part in system.members:
-        lost = unheard(system, recorded).get(part.name)
+        lost = silent.get(part.name)
         if lost and len(lost) == len(part.outputs):
             where = f"one that nothing drives, {', '.join(idle)}" if idle else "an input"
             raise BadInput(

@@ -65,8 +65,7 @@ class TypedLaw:
     Args:
         ranges: parameter -> lowest, highest and usual value, and unit.
         curve: (m,) at the knots of the learned curve, at usual values and with what the model's own parameters may add
-            to it; None where there is none, or where the law
-            depends on more than that curve does.
+            to it; None where there is none, or where the law depends on more than that curve does.
     """
 
     ranges: Mapping[str, Range]

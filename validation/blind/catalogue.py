@@ -2,18 +2,14 @@
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Iterator, Mapping
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
-import fmu_build
-from pysim.effects import STANDARD_LIBRARY, Variant, read_catalogue, variant
-from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import BadInput, Effect, Experiment, Model, Signal
+from validation.asked import PUMP
 from validation.blind.plant.effects import STANDARD, draw_effect, told
 from validation.blind.plant.programme import RATE, Test, programme
 from validation.blind.plant.quantities import STEP, Parameters, Strengths
@@ -22,7 +18,6 @@ from validation.findings import Finding
 
 Array = NDArray[np.float64]
 
-BASE = "HydraulicTestBench.Pump.FreeGreyBox"
 SIZE = "middle"
 FILES = (
     "frequency_response/O-50_A10/2Hz.txt",
@@ -39,27 +34,19 @@ def run() -> Iterator[Finding]:
     """Root mean square of the angle's difference over four tests, against what the effect itself does there."""
     tests = [test for test in programme() if test.file in FILES]
     base = {test.file: _plant(test, Strengths()) for test in tests}
-    effects = {effect.name: effect for effect in read_catalogue(STANDARD_LIBRARY)}
-    with tempfile.TemporaryDirectory() as folder:
-        for name in STANDARD:
-            strengths = Strengths(**draw_effect(name, SIZE, np.random.default_rng(1)))
-            made = variant(BASE, [effects[name]], [STANDARD_LIBRARY], name="One")
-            model = _built(made, Path(folder))
-            overrides = _overrides(effects[name], made, told(name, strengths))
-            plant = {test.file: _plant(test, strengths) for test in tests}
-            off = np.concatenate([_fmu(test, model, overrides) - plant[test.file] for test in tests])
-            does = np.concatenate([plant[file] - base[file] for file in plant])
-            claim = f"{name}: FMU against plant ({_rms(does):.2g} % is what the effect does)"
-            yield Finding(claim, _rms(off), _LIMIT, "%")
+    effects = {effect.name: effect for effect in PUMP.catalogue}
+    for name in STANDARD:
+        strengths = Strengths(**draw_effect(name, SIZE, np.random.default_rng(1)))
+        model, places = PUMP.variants.build([effects[name]])
+        overrides = _overrides(effects[name], places[name], told(name, strengths))
+        plant = {test.file: _plant(test, strengths) for test in tests}
+        off = np.concatenate([_fmu(test, model, overrides) - plant[test.file] for test in tests])
+        does = np.concatenate([plant[file] - base[file] for file in plant])
+        claim = f"{name}: FMU against plant ({_rms(does):.2g} % is what the effect does)"
+        yield Finding(claim, _rms(off), _LIMIT, "%")
 
 
-def _built(made: Variant, folder: Path) -> Model:
-    source = folder / f"{made.class_name}.mo"
-    source.write_text(made.text, encoding="utf-8")
-    return read_model(fmu_build.build(made.class_name, folder / "one.fmu", libraries=[source]))
-
-
-def _overrides(effect: Effect, made: Variant, strengths: Mapping[str, float]) -> dict[str, float]:
+def _overrides(effect: Effect, place: str, strengths: Mapping[str, float]) -> dict[str, float]:
     """The effect's parameters by their names in the model; one over the strength where the class takes that."""
     found = {}
     for parameter in effect.parameters:
@@ -67,7 +54,7 @@ def _overrides(effect: Effect, made: Variant, strengths: Mapping[str, float]) ->
         if spoken not in strengths:
             raise BadInput(f"{effect.name}: the plant has no {spoken}; it has {', '.join(strengths)}")
         value = strengths[spoken]
-        found[made.parameter(effect.name, parameter.name)] = 1 / value if parameter.inverse else value
+        found[f"{place}.{parameter.name}"] = 1 / value if parameter.inverse else value
     return found
 
 

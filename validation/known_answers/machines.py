@@ -121,7 +121,7 @@ def _bench(about: str, machine: str, seed: int = 1) -> Machine:
     def truth(_: Found) -> dict[str, float]:
         return {f"{machine}.{name}": value for name, value in rig.MACHINES[machine].items()}
 
-    return Machine(about, rig.BASE, right, lambda: rig.measured(machine, seed).dataset, truth)
+    return Machine(about, rig.BENCH.class_name, right, lambda: rig.measured(machine, seed).dataset, truth)
 
 
 MACHINES: Mapping[str, Machine] = MappingProxyType(

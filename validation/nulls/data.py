@@ -145,7 +145,7 @@ def _noise(n: int, memory: float, rng: np.random.Generator) -> Array:
 def _bench(rng: np.random.Generator, memory: float, begins: float, stated: float) -> Dataset:
     """Logs of the virtual bench; coloured noise as large as the white comes on top of it."""
     truth = {name: value * _near(rng) for name, value in bench.KNOWN_BADLY.items()}
-    whole = run_plan(bench.build_variant([])[0], plan(), int(rng.integers(1_000_000)), parameters=truth).dataset
+    whole = run_plan(bench.BENCH.model, plan(), int(rng.integers(1_000_000)), parameters=truth).dataset
     size = {s.name: s.noise for s in whole.signals if s.noise is not None}
     louder = stated * (float(np.sqrt(2.0)) if memory else 1.0)
 

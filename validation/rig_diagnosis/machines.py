@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-import tempfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from functools import cache
-from pathlib import Path
 from types import MappingProxyType
 
-import fmu_build
 from pysim.bench import BenchData, run_plan
 from pysim.diagnosis import Session, session
-from pysim.effects import STANDARD_LIBRARY, fitting, read_catalogue, variant
-from pysim.io import read_model
-from pysim.types import Dataset, Effect, Model
+from pysim.types import Dataset, Effect
+from validation.asked import Subject
 from validation.rig_diagnosis.tests_of_bench import plan
 
-BASE = "HydraulicTestBench.LoadCircuit.OpenTestBench"
+BENCH = Subject("HydraulicTestBench.LoadCircuit.OpenTestBench")
 
 # Some percent beside what the model has: these may be refitted.
 KNOWN_BADLY: Mapping[str, float] = MappingProxyType(
@@ -35,17 +31,7 @@ MACHINES: Mapping[str, Mapping[str, float]] = MappingProxyType(
 @cache
 def catalogue() -> dict[str, Effect]:
     """The effects that the bench has slots for."""
-    effects = fitting(read_catalogue(STANDARD_LIBRARY), BASE, [STANDARD_LIBRARY])
-    return {effect.name: effect for effect in effects}
-
-
-def build_variant(effects: Sequence[Effect]) -> tuple[Model, Mapping[str, str]]:
-    """The model with effects, and effect name -> the name ahead of its parameters."""
-    made = variant(BASE, effects, [STANDARD_LIBRARY], name="Bench")
-    with tempfile.TemporaryDirectory(prefix="rig-diagnosis-") as folder:
-        source = Path(folder) / "Bench.mo"
-        source.write_text(made.text, encoding="utf-8")
-        return read_model(fmu_build.build("Bench", libraries=[source])), made.places
+    return {effect.name: effect for effect in BENCH.catalogue}
 
 
 def truth(machine: str) -> dict[str, float]:
@@ -57,10 +43,10 @@ def truth(machine: str) -> dict[str, float]:
 def measured(machine: str, seed: int) -> BenchData:
     """What the virtual bench logs of a machine."""
     effects = [catalogue()[machine]] if machine != "none" else []
-    model, _ = build_variant(effects)
+    model, _ = BENCH.variants.build(effects)
     return run_plan(model, plan(), seed, parameters=truth(machine))
 
 
 def asked(dataset: Dataset) -> Session:
     """The model without any effect beside the logs of a machine, with the whole catalogue."""
-    return session(build_variant([])[0], dataset, tuple(catalogue().values()), build_variant)
+    return session(BENCH.model, dataset, BENCH.catalogue, BENCH.variants.build)

@@ -163,6 +163,13 @@ class Tab:
         """Wait until some words are to be seen."""
         self.page.get_by_text(words).first.wait_for(timeout=1000 * timeout)
 
+    def until(self, true: Callable[[], bool], *, timeout: float = 20.0) -> None:
+        """Wait until the server has done what was asked, however busy the machine is."""
+        begun = time.monotonic()
+        while not true() and time.monotonic() - begun < timeout:
+            self.page.wait_for_timeout(100)
+        assert true()
+
     def drop(self, kind: str, *paths: Path) -> None:
         """Choose files or a folder for the drop; kind is "files" or "folder"."""
         self.page.locator(f"input[aria-label={kind}]").set_input_files([str(path) for path in paths])

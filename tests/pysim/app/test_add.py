@@ -9,22 +9,10 @@ import pytest
 
 from pysim.app.project import Project
 from tests.pysim.app.browser import Show, Shown, Tab, artefacts
+from tests.pysim.app.made import description
 from tests.toy import TEXT
 
-DESCRIPTION = """
-[dataset]
-name = "toy"
-[signals.F]
-role = "input"
-unit = "N"
-[signals.x]
-role = "output"
-unit = "m"
-[[records]]
-file = "a.txt"
-columns = ["time", "F", "x"]
-kind = "other"
-"""
+DESCRIPTION = description("a.txt")
 _PATIENCE = 150e3  # ms
 
 

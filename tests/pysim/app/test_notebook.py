@@ -7,17 +7,12 @@ import pytest
 
 from pysim.app.notebook import notebook
 from pysim.app.project import Project, Settings
-from pysim.io import write_dataset
-from tests.toy import TEXT, measured
+from tests.pysim.app.made import rubbing
 
 
 @pytest.fixture
 def project(tmp_path: Path) -> Project:
-    one = Project.at(tmp_path / "project")
-    write_dataset(one.data, measured(1, "toy.friction", F_c=0.4))
-    one.models.mkdir()
-    (one.models / "Toy.mo").write_text(TEXT)
-    return one
+    return rubbing(tmp_path / "project")
 
 
 def code(project: Project) -> list[str]:

@@ -14,22 +14,10 @@ from pysim.io import read_dataset, read_described, write_dataset
 from pysim.io.prepare import prepared
 from pysim.types import Record
 from tests.pysim.app.browser import Show, Shown, Tab, artefacts
+from tests.pysim.app.made import description
 from tests.toy import TEXT, measured
 
-DESCRIPTION = """
-[dataset]
-name = "toy"
-[signals.F]
-role = "input"
-unit = "N"
-[signals.x]
-role = "output"
-unit = "m"
-[[records]]
-file = "a.csv"
-columns = ["time", "F", "x"]
-kind = "other"
-"""
+DESCRIPTION = description("a.csv")
 
 
 @pytest.fixture
@@ -46,6 +34,13 @@ def project(tmp_path: Path) -> Project:
     (one.data / "a.csv").write_text("\n".join(rows) + "\n")
     one.save(Settings())
     return one
+
+
+def press(tab: Tab, project: Project, keys: str) -> None:
+    """Keys that change the data set's description, and wait until it has changed."""
+    before = project.description.read_bytes()
+    tab.page.keyboard.press(keys)
+    tab.until(lambda: project.description.read_bytes() != before)
 
 
 def chain(project: Project) -> list[dict[str, Any]]:
@@ -127,12 +122,10 @@ def test_a_log_is_made_ready_by_clicks_and_every_click_can_be_taken_back(
     assert [one["step"] for one in chain(project)] == ["fill_gaps", "drop_outliers", "trim"]
     before = project.description.read_bytes()
     for _ in range(3):
-        tab.page.keyboard.press("Control+z")
-        tab.page.wait_for_timeout(400)
+        press(tab, project, "Control+z")
     assert [one["step"] for one in chain(project)] == ["fill_gaps", "drop_outliers", "trim", "lowpass"]
     for _ in range(3):
-        tab.page.keyboard.press("Control+y")
-        tab.page.wait_for_timeout(400)
+        press(tab, project, "Control+y")
     assert project.description.read_bytes() == before
     assert tab.errors == []
 

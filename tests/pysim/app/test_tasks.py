@@ -7,21 +7,16 @@ import pytest
 
 from pysim.app import tasks
 from pysim.app.jobs import ANSWER, Job, Work, _write_job, works
-from pysim.app.project import Project, Settings
+from pysim.app.project import Project
 from pysim.app.tasks import CHECKPOINT, MARKER, Tasks
 from pysim.cli import main, outputs
-from pysim.io import write_dataset
-from tests.toy import TEXT, measured
+from tests.pysim.app.made import rubbing
+from tests.toy import TEXT
 
 
 @pytest.fixture
 def project(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Project:
-    """A mass that rubs, whose model does not."""
-    one = Project.at(tmp_path / "project")
-    write_dataset(one.data, measured(1, "toy.friction", F_c=0.4))
-    one.models.mkdir()
-    (one.models / "Toy.mo").write_text(TEXT)
-    one.save(Settings(model="Toy.Mass", libraries=("model/Toy.mo",)))
+    one = rubbing(tmp_path / "project")
     monkeypatch.chdir(one.folder)
     return one
 

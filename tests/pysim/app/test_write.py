@@ -5,10 +5,9 @@ from pathlib import Path
 
 import pytest
 
-from pysim.app.project import Project, Settings
-from pysim.io import write_dataset
+from pysim.app.project import Project
 from tests.pysim.app.browser import Show, Shown, Tab, artefacts
-from tests.toy import TEXT, measured
+from tests.pysim.app.made import rubbing
 
 PATIENCE = 60.0  # s, on a machine that does other things too
 F_C = 0.4  # N
@@ -17,13 +16,7 @@ LAW = "-F*tanh(v/0.02)"
 
 @pytest.fixture
 def project(tmp_path: Path) -> Project:
-    """A mass that rubs, whose model does not."""
-    one = Project.at(tmp_path / "project")
-    write_dataset(one.data, measured(1, "toy.friction", F_c=F_C))
-    one.models.mkdir()
-    (one.models / "Toy.mo").write_text(TEXT)
-    one.save(Settings(model="Toy.Mass", libraries=("model/Toy.mo",)))
-    return one
+    return rubbing(tmp_path / "project", F_C)
 
 
 @pytest.mark.slow
