@@ -175,7 +175,7 @@ def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
     """The end of the search, by finer simulations where they are given.
 
     Costs that jump, as those of a model with a memory do, shorten its steps until none is left: so it begins anew where
-    it ended, until that gains no more, or as many points were tried as a search may try.
+    it ended, until that gains hardly more, or as many points were tried as a search may try.
     """
     most = _optimiser().max_iterations
     fit = advance(fit, most)
@@ -186,7 +186,7 @@ def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
     while fit.good and not fit.candidate.has_events and tried < most:
         again = advance(begin(fit.candidate, fit.values, fit.simulation, fit), most - tried)
         tried += again.state.tried
-        if not again.good or fit.point.cost - again.point.cost < _optimiser().tolerance:
+        if not again.good or fit.point.cost - again.point.cost < Settings().anew:
             break
         fit = again
     return fit

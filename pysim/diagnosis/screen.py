@@ -133,6 +133,7 @@ def _screened(
     sizes: Sizes,
 ) -> Iterator[Screened]:
     residual = before.residual / before.level
+    milder: tuple[float, float] | None = None  # cost and gain of the size before
     carried = candidate.carried(present.candidate, present.point)
     residuals = candidate.residuals(simulation)
 
@@ -161,8 +162,11 @@ def _screened(
         if amount < 0 and not _signed(effect):
             amount = 0.0
         scaled = _amounted(effect, tried, amount)
-        start = with_effect(present.values, effect, scaled)
-        yield Screened(candidate, start, tried, 0.5 * amount**2 * size, left * before.level)
+        start, gain = with_effect(present.values, effect, scaled), 0.5 * amount**2 * size
+        yield Screened(candidate, start, tried, gain, left * before.level)
+        if _is_limit(effect) and milder is not None and point.cost > milder[0] and gain <= milder[1]:
+            return  # what limits more is farther from the measurements
+        milder = point.cost, gain
 
 
 def own_values(one: Screened) -> Values:
@@ -191,6 +195,10 @@ def _span(found: Rows) -> Array:
     return np.asarray(u[:, sigma > EXACT * sigma[0]])
 
 
+def _is_limit(effect: Effect) -> bool:
+    return any(p.inverse for p in effect.strengths)
+
+
 def _signed(effect: Effect) -> bool:
     return any(p.min < (p.off or 0.0) for p in effect.strengths)
 
@@ -210,7 +218,7 @@ def _values(effect: Effect, largest: float | None, sizes: Sizes) -> Iterator[dic
 
 def _amounted(effect: Effect, tried: Mapping[str, float], amount: float) -> dict[str, float]:
     """At the amount that looked best, within what first order can tell; limits as they were tried."""
-    if any(p.inverse for p in effect.strengths):
+    if _is_limit(effect):
         return dict(tried)
     amount = math.copysign(min(max(abs(amount), 0.2), 3.0), amount) if amount else 0.5
     scaled = {p.name: _within(p, (p.off or 0.0) + amount * (tried[p.name] - (p.off or 0.0))) for p in effect.strengths}

@@ -41,6 +41,10 @@ class Settings:
         3, unit="1", meaning="points that a refit is given before the candidates are compared",
         source="measured: steps to within a tenth of the gain",
     )  # fmt: skip
+    anew: float = setting(
+        0.5, unit="1", meaning="nats: a search that begins anew where it ended has to gain as much to go on",
+        source="what a parameter costs that is off by a standard deviation",
+    )  # fmt: skip
     promising: float = setting(
         0.5, unit="1", meaning="share of the best expected gain from which on a refit goes on",
         source="measured: what a refit still promises errs by less",

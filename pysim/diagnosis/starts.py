@@ -9,7 +9,7 @@ from functools import partial
 
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate, Values
-from pysim.diagnosis.refit import FinalFit, Runner, begin, cost_at
+from pysim.diagnosis.refit import FinalFit, Runner, begin, begun, cost_at
 from pysim.diagnosis.screen import Screened, best_of_each, own_values
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Simulation
@@ -94,5 +94,7 @@ class Starts:
         return Runner(start, self.here(candidate.transient).point.cost, most)
 
     def _of_sensor(self, fit: FinalFit) -> Runner:
-        before = self.here(fit.candidate.transient).point.cost
-        return Runner(lambda: fit, before, self._most(before - fit.expected))
+        """A sensor's error gains no more than it promises beyond what the model promises without it."""
+        here = self.here(fit.candidate.transient)
+        itself = begun(here.candidate, here.point, here.simulation, here.evaluate)
+        return Runner(lambda: fit, here.point.cost, self._most(itself.expected - fit.expected))
