@@ -9,11 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnosis import refit
+from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.learn.basis import Smoothness, lines, missed
 from pysim.diagnosis.learn.laws import Law
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.learn.screening import LawModel, Ranked
-from pysim.diagnosis.refit import Evaluate, FinalFit, advance, exact
+from pysim.diagnosis.refit import FinalFit, advance, exact
 from pysim.identify.greybox import GaussNewton, Point, Simulation
 from pysim.identify.greybox.residuals import Carried, with_rows
 from pysim.types import Estimate
@@ -58,16 +59,21 @@ class LawFit:
         return tuple(one for one in estimates if one.name not in own)
 
     @property
-    def gram(self) -> Array:
-        """(m, m) products of the residual's slopes by the coefficients, across what the parameters explain."""
-        point, m = self.fit.point, self.knots.size
-        rows = point.residual.size - len(self.smoothness.rows)
-        bare = replace(
-            point, x=point.x[:-m], residual=point.residual[:rows], jacobian=point.jacobian[:rows, :-m],
+    def bare(self) -> Point:
+        """The point without the curve's prior."""
+        point, rows = self.fit.point, self.fit.point.residual.size - len(self.smoothness.rows)
+        return replace(
+            point, cost=self.cost, residual=point.residual[:rows], jacobian=point.jacobian[:rows],
             series=point.series[:rows], blocks=point.blocks[:rows],
         )  # fmt: skip
-        table = Products.at(bare, self.fit.candidate.residuals(self.fit.simulation))
-        table = table.with_(point.jacobian[:rows, -m:], scaled=False)
+
+    @property
+    def gram(self) -> Array:
+        """(m, m) products of the residual's slopes by the coefficients, across what the parameters explain."""
+        bare, m = self.bare, self.knots.size
+        without = replace(bare, x=bare.x[:-m], jacobian=bare.jacobian[:, :-m])
+        table = Products.at(without, self.fit.candidate.residuals(self.fit.simulation))
+        table = table.with_(bare.jacobian[:, -m:], scaled=False)
         return table.across(np.ones(table.samples.size + 1))[0]
 
     @property
@@ -87,18 +93,13 @@ class LawFit:
         return bool(np.any(missed(self.knots, self.values) > np.maximum(sd[1:], sd[:-1])))
 
 
-def penalised(evaluate: Evaluate, smoothness: Smoothness) -> Evaluate:
-    """The objective with the prior of the last numbers as rows of the residual."""
+def penalised(point: Point, smoothness: Smoothness) -> Point:
+    """A point with the prior of its last numbers as rows of the residual."""
+    if not point.good:
+        return point
     rows = smoothness.rows
-
-    def evaluated(x: Array, carried: Carried) -> Point:
-        point = evaluate(x, carried)
-        if not point.good:
-            return point
-        own = rows @ x[-rows.shape[1] :]
-        return with_rows(point, own, np.hstack([np.zeros((len(rows), x.size - rows.shape[1])), rows]), 0)
-
-    return evaluated
+    slopes = np.hstack([np.zeros((len(rows), point.x.size - rows.shape[1])), rows])
+    return with_rows(point, rows @ point.x[-rows.shape[1] :], slopes, 0)
 
 
 def begun(model: LawModel, ranked: Ranked, simulation: Simulation) -> LawFit:
@@ -108,11 +109,10 @@ def begun(model: LawModel, ranked: Ranked, simulation: Simulation) -> LawFit:
     smooth = ranked.curve.smoothness
     smooth = replace(smooth, bending=smooth.bending / ratio**2, level=smooth.level / ratio**2)
     x, values = model.present.point.x, ranked.curve.values * ratio
-    starts = [
-        started(model, ranked.law, ranked.knots, unit, smooth, np.append(x, share * values), simulation)
-        for share in (1.0, 0.0)
-    ]
-    return min(starts, key=lambda one: one.fit.point.cost)
+    first = started(model, ranked.law, ranked.knots, unit, smooth, np.append(x, values), simulation)
+    if first.fit.point.cost < model.present.point.cost:
+        return first
+    return started(model, ranked.law, ranked.knots, unit, smooth, np.append(x, 0 * values), simulation)
 
 
 def started(
@@ -128,34 +128,47 @@ def started(
     """A law at a start x (n + m,): the model's parameters, then its coefficients in units."""
     names = law.place.coefficients(knots.size)
     candidate = model.candidate(law.settings(knots, unit), names, np.ones(knots.size), free=True)
-    n = x.size
-    precision = np.zeros((n, n))
+    point = exact(candidate, simulation)(x, carried or model.present.point.carried)
+    return _beginning(law, knots, unit, smoothness, candidate, point, simulation)
+
+
+def _beginning(
+    law: Law,
+    knots: Array,
+    unit: float,
+    smoothness: Smoothness,
+    candidate: Candidate,
+    bare: Point,
+    simulation: Simulation,
+) -> LawFit:
+    """Where a search begins, from its point without the curve's prior."""
+    precision = np.zeros((bare.x.size, bare.x.size))
     precision[-knots.size :, -knots.size :] = smoothness.precision
     candidate = replace(candidate, precision=precision, law=law.label)
-    evaluate = penalised(exact(candidate, simulation), smoothness)
-    point = evaluate(x, carried or model.present.point.carried)
-    return LawFit(law, knots, unit, smoothness, refit.begun(candidate, point, simulation, evaluate))
+    without = exact(candidate, simulation)
+
+    def evaluate(x: Array, carried: Carried) -> Point:
+        return penalised(without(x, carried), smoothness)
+
+    return LawFit(
+        law, knots, unit, smoothness, refit.begun(candidate, penalised(bare, smoothness), simulation, evaluate)
+    )
 
 
-def moved(model: LawModel, one: LawFit, points: int) -> LawFit:
+def moved(one: LawFit, points: int) -> LawFit:
     """So many points on, and then as smooth as the data ask for there."""
     if not one.fit.good:
         return one
     one = replace(one, fit=advance(one.fit, points))
-    return _smoothed(model, one)
-
-
-def _smoothed(model: LawModel, one: LawFit) -> LawFit:
     smooth = one.smoothness.moved(one.gram, one.values)
-    point = one.fit.point
-    return started(model, one.law, one.knots, one.unit, smooth, point.x, one.fit.simulation, point.carried)
+    return _beginning(one.law, one.knots, one.unit, smooth, one.fit.candidate, one.bare, one.fit.simulation)
 
 
-def settled(model: LawModel, one: LawFit, points: int) -> LawFit:
+def settled(one: LawFit, points: int) -> LawFit:
     """On until neither the search nor the smoothness moves any more, so many points between looks at the latter."""
     for _ in range(_ROUNDS):
         before = one.edf
-        one = moved(model, one, points)
+        one = moved(one, points)
         if not one.fit.good or (one.fit.state.outcome is not None and abs(one.edf - before) < _SETTLED):
             break
     return one

@@ -127,12 +127,12 @@ class Learner:
         running: list[tuple[LawModel, LawFit]] = []
         for model, one in chosen:
             self._say(f"refitting {one.law.label}")
-            fit = moved(model, begun(model, one, model.simulation), self._settings.heat)
+            fit = moved(begun(model, one, model.simulation), self._settings.heat)
             if fit.fit.good and fit.cost < self._rough.point.cost:
                 running.append((model, fit))
         running.sort(key=lambda one: self._scored(one[1]))
         finalists = self._session.settings.finalists
-        further = [moved(model, fit, self._settings.heat) for model, fit in running[:finalists]]
+        further = [moved(fit, self._settings.heat) for _, fit in running[:finalists]]
         fits = [*(fit for fit in further if fit.fit.good), *(fit for _, fit in running[finalists:])]
         return sorted(fits, key=self._scored)
 
@@ -147,27 +147,28 @@ class Learner:
         return rivals.effective(left, rivals.of(present).residual - left.residual)
 
     def _finished(self, one: LawFit, model: LawModel) -> LawFit:
-        """To the end, with twice the knots as long as the data see the corners and the law gets better by it."""
-        settings, point = self._settings, one.fit.point
-        solver = replace(self._present.simulation.solver, max_steps=10 * model.simulation.solver.max_steps)
-        fine = replace(self._present.simulation, solver=solver)
-        again = started(model, one.law, one.knots, one.unit, one.smoothness, point.x, fine, point.carried)
-        if not again.fit.good:
-            return one
-        best = settled(model, again, settings.heat)
-        while best.coarse and 2 * best.knots.size - 1 <= settings.most_knots:
+        """To the end, with twice the knots as long as the data see the corners and the law gets better by it.
+
+        The last search alone takes the runs of what is kept.
+        """
+        settings, rough = self._settings, model.simulation
+        best = settled(one, settings.heat)
+        while best.fit.good and best.coarse and 2 * best.knots.size - 1 <= settings.most_knots:
             finer = self._model(model.place, 2 * best.knots.size - 1)
             if finer is None:
                 break
             k = closer(best.knots, best.values)
             x = np.append(best.fit.point.x[: -best.knots.size], curve_basis(k, best.knots) @ best.values)
             smooth = replace(best.smoothness, knots=k)
-            again = started(finer, best.law, k, best.unit, smooth, x, fine, best.fit.point.carried)
-            again = settled(finer, again, settings.heat) if again.fit.good else again
+            again = started(finer, best.law, k, best.unit, smooth, x, rough, best.fit.point.carried)
+            again = settled(again, settings.heat)
             if not again.fit.good or self._scored(again) >= self._scored(best):
                 break
-            best = again
-        return ended(best)
+            best, model = again, finer
+        solver = replace(self._present.simulation.solver, max_steps=10 * rough.solver.max_steps)
+        fine, point = replace(self._present.simulation, solver=solver), best.fit.point
+        again = started(model, best.law, best.knots, best.unit, best.smoothness, point.x, fine, point.carried)
+        return ended(settled(again, settings.heat)) if again.fit.good else one
 
     def _share(self, one: LawFit) -> float:
         """What a law takes of the sum of squares over the floors that could be avoided."""

@@ -97,7 +97,7 @@ def _without(session: Session, law: LawFit, effect: Effect, alone: Alone, settin
     made = LawModel(law.law.place, law.knots.size, present, model, patient(present))
     x = np.append(candidate.at(values), law.values)
     found = started(made, law.law, law.knots, law.unit, law.smoothness, x, law.fit.simulation)
-    return ended(settled(made, found, settings.heat)) if found.fit.good else None
+    return ended(settled(found, settings.heat)) if found.fit.good else None
 
 
 def _kept(law: LawFit, effect: Effect) -> Iterator[tuple[str | tuple[str, str], float]]:
