@@ -8,6 +8,8 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.diagnosis.settings import Settings
+from pysim.diagnosis.tone import clearest
 from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
 from pysim.types import Dataset, MeasuredRecord, RecordFit
 from pysim.types.answer import Failure
@@ -20,7 +22,6 @@ _WINDOWS = 6  # of a log over time
 _BANDS = 10  # of a log's spectrum, at most
 _LINES = 8  # of the spectrum in a band, at least: fewer, and chance would lead the list
 _RANGES = 5  # of a signal
-_TONE = 15.0  # times the power beside it, or of noise, makes a line a tone: noise comes nowhere near
 
 
 def failures(records: Sequence[RecordFit], dataset: Dataset | None = None) -> tuple[Failure, ...]:
@@ -53,20 +54,13 @@ def _own(record: RecordFit) -> Iterator[Failure]:
             yield Failure(record.source, signal, window, _size(values[part]))
         if values.size >= FEWEST:
             frequency, power, _ = residual_spectrum(residual.time, values)
-            line = tone(power)
-            if line is not None:
-                yield Failure(record.source, signal, f"{frequency[line]:.3g} Hz alone", math.sqrt(float(power[line])))
+            line = clearest(residual.time, values)
+            if line is not None and line[0] < Settings().false_alarm:
+                size = float(np.interp(line[1], frequency, power))
+                yield Failure(record.source, signal, f"{line[1]:.3g} Hz alone", math.sqrt(size))
             for band in bands(frequency):
                 region = f"{frequency[band][0]:.3g} to {frequency[band][-1]:.3g} Hz"
                 yield Failure(record.source, signal, region, math.sqrt(float(np.mean(power[band]))))
-
-
-def tone(power: Array) -> int | None:
-    """Index of a line (n_f,) that stands alone far above its neighbours; None where there is none."""
-    top = int(np.argmax(power))
-    beside = np.concatenate([power[max(0, top - 12) : max(0, top - 2)], power[top + 3 : top + 13]])
-    alone = beside.size >= _LINES and power[top] > _TONE * max(1.0, float(np.median(beside)))
-    return top if alone else None
 
 
 def bands(frequency: Array) -> Iterator[slice]:

@@ -98,7 +98,7 @@ def _logged(session: Session, level: Mapping[str, float]) -> tuple[MeasuredSigna
 def _colour(one: FinalFit, other: FinalFit) -> float:
     """lambda of the data at hand: by how much more than white noise the new residuals will scatter."""
     own, its = rivals.of(one), rivals.of(other)
-    return rivals.effective(own, its.residual - own.residual) if rivals.aligned([own, its]) else 1.0
+    return rivals.effective(own, its.residual - own.residual) if np.array_equal(own.series, its.series) else 1.0
 
 
 def _known(fit: FinalFit) -> Array:

@@ -16,6 +16,7 @@ from pysim.identify.greybox import GaussNewton, Nuisance, Point, Simulation
 from pysim.identify.greybox.beginning import first_point
 from pysim.identify.greybox.optimiser import Bounds, State
 from pysim.identify.greybox.residuals import Carried
+from pysim.identify.greybox.uncertainty import at_bounds
 from pysim.types import FitOutcome
 
 Array = NDArray[np.float64]
@@ -72,10 +73,15 @@ class FinalFit:
         return tuple(zip(self.candidate.nuisances, self.point.carried.nuisances.tolist(), strict=True))
 
     def believable(self, label: str, most: float) -> bool:
-        """Whether a label names an effect, or a sensor's error within so many standard deviations of its prior."""
+        """Whether a label names an effect that is not at the end of what its class calls plausible, or a sensor's error
+        within so many standard deviations of its prior."""
+        ends = dict(zip(self.candidate.keys, at_bounds(self.candidate.space, self.point), strict=True))
+        own = [(p, ends[label, p.name]) for e in self.candidate.effects if e.name == label for p in e.strengths]
+        if any(end and p.off != (p.min if end == "lower" else p.max) for p, end in own):
+            return False
         labels = self.candidate.labels[len(self.candidate.effects) :]
         sizes = zip(labels, self.sensor_errors, strict=True)
-        return all(abs(size) <= most * error.prior_sd for own, (error, size) in sizes if own == label)
+        return all(abs(size) <= most * error.prior_sd for name, (error, size) in sizes if name == label)
 
     @property
     def expected(self) -> float:

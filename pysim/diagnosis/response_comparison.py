@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import platform
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from pysim.diagnosis.conditions import conditions, parameters
+import numpy as np
+
+from fmu_build.version import DISTRIBUTION, version
 from pysim.identify import (
     THESIS_REFERENCE_HZ,
     SteadyRun,
@@ -16,6 +19,7 @@ from pysim.identify import (
     run_until_settled,
     stepped_sine,
 )
+from pysim.identify.settling import TOLERANCE
 from pysim.simulate import Rodas, Solver, simulate_many
 from pysim.types import (
     BadInput,
@@ -103,8 +107,8 @@ def compare_responses(
         overrides=overrides or {},
         reference_hz=reference_hz,
         command_unit=dataset.signal(responses[0].test.input).unit,
-        conditions=conditions(model, plan, solver, about),
-        parameters=parameters(model, overrides or {}),
+        conditions=_conditions(model, plan, solver, about),
+        parameters=_parameters(model, overrides or {}),
     )
 
 
@@ -140,3 +144,31 @@ def _judge(
             return ResponseComparison(measured, None, (), f"at {frequency:g} Hz: {run.trouble}")
     simulated = frequency_response([run.record for run in own], frequencies, test, onset=plan.onset)
     return ResponseComparison(measured, simulated, frequency_deviations(simulated, measured, reference_hz=reference_hz))
+
+
+def _conditions(model: Model, plan: SteppedSine, solver: Solver, about: str) -> dict[str, str]:
+    """Parameter set, FMU, solver, plan and versions; nothing that changes from one run to the next."""
+    return {
+        "parameter set": about or "as the FMU holds it",
+        "FMU": f"{model.path.name}, FMI {model.abilities.fmi}, token {model.token}",
+        "solver": repr(solver),
+        "test": f"rest {plan.rest:g} s, ramp {plan.ramp:g} s, hold {plan.hold:g} s, then the sine",
+        "settling": f"{plan.settle_time:g} s of the sine, at least {plan.settle_periods} periods; doubled up to "
+        f"{plan.settle_limit:g} s while the output changes by more than {TOLERANCE:g} of its amplitude over the fit",
+        "fit": f"{plan.fit_periods} whole periods of {plan.points} points",
+        "versions": versions(),
+    }
+
+
+def versions() -> str:
+    """Of this project, Python and NumPy."""
+    return f"{DISTRIBUTION} {version()}, Python {platform.python_version()}, NumPy {np.__version__}"
+
+
+def _parameters(model: Model, overrides: Mapping[str, float]) -> dict[str, tuple[float, str]]:
+    """Value and unit of every parameter that was in force; name -> (value, unit)."""
+    return {
+        v.name: (overrides.get(v.name, v.start), v.unit)
+        for v in model.variables
+        if v.causality == "parameter" and v.start is not None
+    }

@@ -7,7 +7,6 @@ Journal of the Royal Statistical Society 8:27; Kish 1965, Survey Sampling, Secti
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -192,8 +191,3 @@ def shares_of_blocks(changed: Array, level: Array, blocks: NDArray[np.intp]) -> 
     """(n_b,) share of what an effect does that lies in each block."""
     size = np.bincount(blocks, (changed / level) ** 2)
     return np.asarray(size / max(float(size.sum()), np.finfo(float).tiny))
-
-
-def aligned(parts: Sequence[Rows]) -> bool:
-    """Whether rows of several models stand for the same measurements."""
-    return all(np.array_equal(part.series, parts[0].series) for part in parts)

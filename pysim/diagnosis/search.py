@@ -52,14 +52,13 @@ class Table:
     Args:
         names: what the model has already.
         avoidable: nats that could be gained.
-        rivals: refitted, best first; screened: only that.
+        rivals: refitted, best first.
         looked: every effect at its best size.
     """
 
     names: tuple[str, ...]
     avoidable: float
     rivals: Sequence[Compared]
-    screened: Sequence[Screened]
     looked: Sequence[Screened]
 
 
@@ -325,9 +324,7 @@ class Search:
             added = next(label for label in fit.candidate.labels if label not in have)
             if fit.believable(added, self.settings.believable):
                 compared.append(Compared(fit, added, self.test(starts.like(fit), fit)))
-        refitted = {one.added for one in compared}
-        aside = [one for one in tried if one.effect.name not in refitted]
-        return Table(present.candidate.labels, self.floors.potential(present), self._ordered(compared), aside, tried)
+        return Table(present.candidate.labels, self.floors.potential(present), self._ordered(compared), tried)
 
     def _beside(self, fit: FinalFit, transient: bool) -> FinalFit:
         """A fit compared by orbits or by transients, as a rival is."""

@@ -166,10 +166,7 @@ class TestSettings:
         0.2, unit="1", meaning="noise within which a system counts as settled", source="a hundred samples hide it"
     )
     unlogged: float = setting(
-        1e-3,
-        unit="1",
-        meaning="noise of a signal that was never logged, over its range",
-        source="IEC 60770-1: class 0.1",
+        1e-3, unit="1", meaning="noise of a signal never logged, over its range", source="IEC 60770-1: class 0.1"
     )
     errors: float = setting(
         10.0, unit="1", meaning="noise of a signal that was never logged, over the error of its simulation at least",
@@ -189,20 +186,14 @@ class ToneSettings:
         2, unit="1", meaning="lines on either side that belong to a tone", source="main lobe of Hann's window"
     )
     beside: int = setting(
-        8,
-        unit="1",
-        meaning="lines beyond them, on either side, that tell the level",
-        source="noise is level there",
+        8, unit="1", meaning="lines beyond them, on either side, that tell the level", source="noise is level there"
     )
     worth: int = setting(
-        8,
-        unit="1",
-        meaning="independent lines that those are worth",
-        source="half, as Hann's window joins two",
+        8, unit="1", meaning="independent lines that those are worth", source="half, as Hann's window joins two"
     )
     even: float = setting(
         0.01,
         unit="1",
-        meaning="of a sampling interval: how much it may vary",
+        meaning="share by which a sampling interval may vary",
         source="half a percent of the shortest period",
     )

@@ -114,9 +114,9 @@ def ranking(tables: Sequence[Table]) -> tuple[Rival, ...]:
     rows: list[Rival] = []
     for one in tables:
         rows += [_row(one.names, rival, one.avoidable) for rival in one.rivals]
-        rows += [
-            Rival((*one.names, s.effect.name), s.gain, 1.0, _share(s.gain, one.avoidable), False) for s in one.screened
-        ]
+        refitted = {rival.added for rival in one.rivals}
+        aside = [s for s in one.looked if s.effect.name not in refitted]
+        rows += [Rival((*one.names, s.effect.name), s.gain, 1.0, _share(s.gain, one.avoidable), False) for s in aside]
     return tuple(rows)
 
 

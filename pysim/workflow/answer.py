@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 
-from pysim.diagnosis.conditions import versions
+from pysim.diagnosis.response_comparison import versions
 from pysim.types import Diagnosis
 from pysim.workflow.learned import with_classes
 from pysim.workflow.session import SessionParts

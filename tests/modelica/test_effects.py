@@ -145,6 +145,7 @@ def test_off_is_the_base_model_bit_for_bit(base: RightHandSide, full: RightHandS
             {"F_c": 50.0, "F_s": 120.0, "v_s": 8e-3},
             lambda x, v: -np.tanh(v / 1e-3) * (50 + 70 * np.exp(-abs(v) / 8e-3)),
         ),
+        ("friction__stribeck", {"F_c": 80.0, "F_s": 20.0, "v_s": 8e-3}, lambda x, v: -80 * np.tanh(v / 1e-3)),
         ("spring__hardening", {"k_3": 3e7}, lambda x, v: -3e7 * x**3),
         ("spring__preload", {"F_0": 90.0}, lambda x, v: -90 * np.tanh(x / 0.2e-3)),
         ("swash__bias", {"F_b": -65.0}, lambda x, v: -65.0),

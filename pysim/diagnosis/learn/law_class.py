@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from fmu_build.text import class_text
 from fmu_build.text.expressions import names_in, parse
 from fmu_build.text.write import quoted
-from pysim.diagnosis.learn.curve import widths
-from pysim.diagnosis.learn.curve_text import CURVE, RAMP, SLOPE
+from pysim.diagnosis.learn.curve import CURVE, RAMP, SLOPE, widths
 from pysim.diagnosis.learn.formula import REACH, Formula, rounded_up
 from pysim.effects import VENDOR, Filling, Slot, filling, parameter_text, slot_units
 from pysim.effects.law import check_units, dimension, dimension_words

@@ -65,7 +65,7 @@ def uncertainty(space: ParameterSpace, point: Point) -> Uncertainty:
         point: residuals over their levels and their slopes.
     """
     value, slope = space.to_model(point.x), space.slope(point.x)
-    at = _at_bounds(space, point)
+    at = at_bounds(space, point)
     inner = np.array([not where for where in at])
     relative = np.where(value == 0, space.scale, np.abs(value))  # one unit of ln(p), or of the scale at zero
     slopes = point.jacobian / slope * relative
@@ -98,7 +98,7 @@ def _quantile(freedom: float, *, one_sided: bool = False) -> float:
     return float(stdtrit(freedom, level) if math.isfinite(freedom) else ndtri(level))
 
 
-def _at_bounds(space: ParameterSpace, point: Point) -> list[str]:
+def at_bounds(space: ParameterSpace, point: Point) -> list[str]:
     """ "lower", "upper" or "" per parameter."""
     lower, upper = space.bounds()
     width = np.where(np.isfinite(upper - lower), upper - lower, 1.0)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pysim.diagnosis.failures import ALL_LOGS, ALL_SINES, bands, failures, tone
+from pysim.diagnosis.failures import ALL_LOGS, ALL_SINES, bands, failures
 from pysim.types import Record, RecordFit
 from tests.pysim.diagnosis_answer import WAVE, dataset, stage
 
@@ -32,13 +32,6 @@ def test_a_ripple_is_told_by_its_band() -> None:
     low, high = (float(word) for word in worst.region.removesuffix(" Hz").split(" to "))
     assert low <= 24 <= high
     assert worst.error > 2.4  # the root of 1 + 3^2/2 over all frequencies
-
-
-def test_noise_and_broad_residuals_have_no_tone() -> None:
-    rng = np.random.default_rng(5)
-    assert all(tone(rng.chisquare(28, 250) / 28) is None for _ in range(200))
-    assert tone(1 + 100 * np.exp(-(np.linspace(-3, 3, 250) ** 2))) is None
-    assert tone(np.ones(250) + 100.0 * (np.arange(250) == 99)) == 99
 
 
 def test_a_burst_is_told_by_its_window() -> None:

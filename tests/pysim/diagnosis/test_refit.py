@@ -96,3 +96,10 @@ def test_a_search_whose_steps_became_too_short_begins_anew_where_it_ended() -> N
     short = replace(begun, state=replace(begun.state, outcome=FitOutcome.CONVERGED))
     assert converged(short).point.cost == pytest.approx(converged(begun).point.cost, abs=0.1)
     assert begun.point.cost - converged(begun).point.cost > 10
+
+
+def test_an_effect_at_the_end_of_its_bounds_is_not_believed() -> None:
+    most = catalogue("mass")["mass.friction"].strengths[0].max
+    within, beyond = (start("mass.friction", values={("mass.friction", "F_c"): size}) for size in (0.3, most))
+    assert within.believable("mass.friction", 4.0)
+    assert not beyond.believable("mass.friction", 4.0)
