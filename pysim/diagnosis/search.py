@@ -169,11 +169,7 @@ class Search:
 
     def _once(self, part: str, find: Callable[[], FinalFit], candidate: Candidate) -> FinalFit:
         """One refit of the checkpoint."""
-        return self._checkpoint.once(part, lambda: [find()], [candidate], self._simulations)[0]
-
-    @property
-    def _simulations(self) -> tuple[Simulation, ...]:
-        return self.rough, self.fine
+        return self._checkpoint.once(part, lambda: [find()], [candidate], (self.rough, self.fine))[0]
 
     @property
     def tables(self) -> tuple[Table, ...]:
@@ -318,7 +314,7 @@ class Search:
 
         part = f"beside {' + '.join(present.candidate.labels) or 'the base model'}"
         candidates = [one.candidate for one in tried] + [fit.candidate for fit in sensors]
-        fits = self._checkpoint.once(part, raced, candidates, self._simulations)
+        fits = self._checkpoint.once(part, raced, candidates, (self.rough, self.fine))
         have, compared = set(present.candidate.labels), list[Compared]()
         for fit in fits:
             added = next(label for label in fit.candidate.labels if label not in have)
@@ -460,8 +456,12 @@ class Search:
         return self._keep(self._once(f"without {label} of {' + '.join(labels)}", find, candidate))
 
     def _refitted(self, candidate: Candidate, values: Values, present: FinalFit) -> FinalFit:
-        """Refitted from where another model stands, or as it is known where that promises to end hardly lower."""
+        """Refitted from where another model stands, or if that does not run from the base model; or as it is known where
+        that promises to end hardly lower."""
         rough = converged(begin(candidate, values, self.rough, present))
+        if not rough.good:
+            base = self._beside(self._fits[_key(self.models.of(()))], candidate.transient)
+            rough = converged(begin(candidate, base.values, self.rough, base))
         known = self._fits.get(_key(candidate))
         fit = begin(candidate, rough.values, self.fine, rough) if rough.good else rough
         if known is not None:

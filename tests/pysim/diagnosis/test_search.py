@@ -11,7 +11,7 @@ import pytest
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.refit import FinalFit, begin
 from pysim.diagnosis.search import Search
 from pysim.diagnosis.session import session
 from pysim.diagnosis.settings import Settings
@@ -30,6 +30,14 @@ package Frail
     f = -a*v*sqrt(1 - x/0.15);
     annotation(__HydraulicTestBench(effect="frail.drag", slot="force"));
   end Drag;
+
+  model Root "A law that only small sizes have"
+    extends Mass.PartialForce;
+    parameter Real c(unit="N.s/m", min=0, max=5, nominal=0.5) = 0 "0 = off";
+  equation
+    f = -c*v*sqrt(1 - c);
+    annotation(__HydraulicTestBench(effect="frail.root", slot="force"));
+  end Root;
 end Frail;
 """
 
@@ -67,3 +75,15 @@ def test_the_choosing_logs_say_by_how_much_their_cost_rises() -> None:
         costs.append(residuals.evaluate(fit.candidate.model, fit.candidate.space, fit.point.x, jacobian=False).cost)
     assert answer[0] == pytest.approx(costs[1] - costs[0], abs=1e-3)
     assert answer[1] > 0
+
+
+def test_a_model_that_does_not_run_beside_an_effect_is_refitted_from_the_base_model() -> None:
+    search, base, frail = found(2.0)
+    search._keep(base)
+    (root,) = (effect for effect in search.models.session.catalogue if effect.name == "frail.root")
+    candidate = search.models.of([root])
+    far = {**base.values, ("frail.root", "c"): 2.0}
+    assert not begin(candidate, far, FINE, base).good
+    fit = search._refitted(candidate, far, frail)
+    assert fit.good
+    assert fit.point.cost <= base.point.cost + 1.0
