@@ -456,8 +456,8 @@ class Search:
         return self._keep(self._once(f"without {label} of {' + '.join(labels)}", find, candidate))
 
     def _refitted(self, candidate: Candidate, values: Values, present: FinalFit) -> FinalFit:
-        """Refitted from where another model stands, or if that does not run from the base model; or as it is known where
-        that promises to end hardly lower."""
+        """Refitted from where another model stands, or from the base model if that does not run; or as it is known
+        where that promises to end hardly lower."""
         rough = converged(begin(candidate, values, self.rough, present))
         if not rough.good:
             base = self._beside(self._fits[_key(self.models.of(()))], candidate.transient)
