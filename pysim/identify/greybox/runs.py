@@ -228,8 +228,8 @@ class _Settings:
         """One run at the point, from the state or with the offset that is guessed."""
         overrides, names, chain = self.of(run.record)
         if run.orbit is not None:
-            return Job(place, run.orbit.override(**overrides), names, chain, guess, self.mismatch)
+            return Job(place, run.orbit, overrides, names, chain, guess, self.mismatch)
         by_initial = bool(run.free.size) and self.initial
         guess = np.zeros(run.free.size) if guess is None and by_initial else guess
-        experiment = run.over_time(overrides, guess)
-        return Job(place, experiment, names, chain, None, self.mismatch, offset=by_initial)
+        experiment = run.over_time({}, guess)
+        return Job(place, experiment, overrides, names, chain, None, self.mismatch, offset=by_initial)

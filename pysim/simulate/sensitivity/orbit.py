@@ -154,7 +154,7 @@ class Plan:
         return Kind(ORBIT, self.solver, self.directions, self.mismatch)
 
 
-def remembers(plan: Plan, experiment: Experiment, guess: Array | None) -> bool:
+def remembers(plan: Plan, request: Request) -> bool:
     """Whether the model remembers more than its states, so that a period cannot be started from them.
 
     If not, a second period of an orbit ends where the first one did, but for what the choice of the steps may move. As
@@ -162,11 +162,12 @@ def remembers(plan: Plan, experiment: Experiment, guess: Array | None) -> bool:
     """
     if plan.library.known.get("remembers") is False:
         return False
-    (found,) = run_tasks(plan.library, plan.kind, [Request(experiment, guess)])
+    (found,) = run_tasks(plan.library, plan.kind, [request])
     if not found.done:
         return False
-    twice = replace(experiment, times=np.append(experiment.times, experiment.times[-1] * 2))
-    requests = [Request(run, found.array("state")) for run in (experiment, twice)]
+    period = request.experiment
+    twice = replace(period, times=np.append(period.times, period.times[-1] * 2))
+    requests = [Request(run, request.values, found.array("state")) for run in (period, twice)]
     once, again = run_tasks(plan.library, Kind(VARIED, plan.solver), requests)
     if once.failed_to_start or again.failed_to_start:
         return False
@@ -181,18 +182,18 @@ def remembers(plan: Plan, experiment: Experiment, guess: Array | None) -> bool:
     return found_out
 
 
-def find_orbits(plan: Plan, tests: Sequence[tuple[Experiment, Array | None]], **watched: Any) -> list[Found]:
-    """What the kernel finds for tests, each with a guess or none; where a guess leads nowhere, the model's own start.
+def find_orbits(plan: Plan, requests: Sequence[Request], **watched: Any) -> list[Found]:
+    """What the kernel finds, each with a guess or none; where a guess leads nowhere, from the model's own start.
 
     Args:
         watched: workers, progress and stopped, as of `run_tasks`.
     """
-    found = run_tasks(plan.library, plan.kind, [Request(*test) for test in tests], **watched)
-    again = [i for i, one in enumerate(found) if not one.done and not one.event and tests[i][1] is not None]
+    found = run_tasks(plan.library, plan.kind, requests, **watched)
+    again = [i for i, one in enumerate(found) if not one.done and not one.event and requests[i].states is not None]
     if again:
-        requests = [Request(tests[i][0]) for i in again]
+        bare = [requests[i]._replace(states=None) for i in again]
         watched.pop("progress", None)
-        for i, one in zip(again, run_tasks(plan.library, plan.kind, requests, **watched), strict=True):
+        for i, one in zip(again, run_tasks(plan.library, plan.kind, bare, **watched), strict=True):
             found[i] = one
     return found
 
@@ -230,7 +231,7 @@ def orbit_of(plan: Plan, experiment: Experiment, found: Found | None, stopped: S
 
 
 def _find_orbit(plan: Plan, experiment: Experiment, guess: Array | None, stopped: Stopped) -> Orbit:
-    (found,) = find_orbits(plan, [(experiment, guess)], stopped=stopped)
+    (found,) = find_orbits(plan, [Request(experiment, states=guess)], stopped=stopped)
     return orbit_of(plan, experiment, found, stopped)
 
 

@@ -148,7 +148,7 @@ def check_sensitivities(
     check_list("sensitivities_many", "experiments", experiments, Experiment)
     count = worker_count("sensitivities_many", model, workers)
     names = check_names("sensitivities_many", parameters)
-    check_parameters("sensitivities_many", model, experiments, names)
+    check_parameters("sensitivities_many", model, [Request(experiment) for experiment in experiments], names)
     if offset and any(e.offset.size != len(model.abilities.states) for e in experiments):
         raise BadInput("sensitivities_many: a derivative by the offset needs experiments with one; give them zeros")
     return Ask(tuple(experiments), names, offset, solver, count)
@@ -157,7 +157,7 @@ def check_sensitivities(
 def run_in(library: Opened, ask: Ask, progress: Progress | None) -> tuple[Sensitivities, ...]:
     """As `sensitivities_many`, with a library that is open already."""
     experiments, names, solver, count = ask.experiments, ask.names, ask.solver, ask.workers
-    offers = probe_each(library, experiments, solver, names)
+    offers = probe_each(library, [Request(experiment) for experiment in experiments], solver, names)
     whole = {record for record, offer in offers.items() if len(offer.parameters) == len(names)}
     starts = start_slopes(library, experiments, solver, offers, count)
     found: dict[int, Found] = {}
