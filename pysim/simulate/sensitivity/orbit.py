@@ -22,7 +22,7 @@ from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import ORBIT, VARIED
 from pysim.simulate.sensitivity.differences import DIFFERENCE_STEP, tight
 from pysim.simulate.sensitivity.probe import Offer, both_sides
-from pysim.simulate.sensitivity.sensitivities import Ask, run_in
+from pysim.simulate.sensitivity.sensitivities import Ask, read_only, run_in, spread
 from pysim.simulate.sensitivity.transient import Settled, after, settle_down
 from pysim.types import Experiment, Outcome, Record
 
@@ -64,9 +64,7 @@ class Orbit:
 
     def __post_init__(self) -> None:
         for name in ("by_parameter", "state", "state_by_parameter"):
-            array = np.array(getattr(self, name), dtype=np.float64)
-            array.setflags(write=False)
-            object.__setattr__(self, name, array)
+            object.__setattr__(self, name, read_only(getattr(self, name)))
 
 
 class OrbitStack(NamedTuple):
@@ -224,7 +222,7 @@ def orbit_of(plan: Plan, experiment: Experiment, found: Found | None, stopped: S
     columns, by = found.slopes, found.array("state_by")
     if plan.missing:
         places = [plan.parameters.index(name) for name in plan.directions.parameters]
-        columns, by = _spread(columns, places, len(plan.parameters)), _spread(by, places, len(plan.parameters))
+        columns, by = spread(columns, places, len(plan.parameters)), spread(by, places, len(plan.parameters))
     iterations = found.number_of("iterations")
     orbit = Orbit(record, plan.parameters, columns, found.array("state"), by, iterations)
     return _with_differences(plan, experiment, orbit, stopped) if plan.missing else orbit
@@ -233,13 +231,6 @@ def orbit_of(plan: Plan, experiment: Experiment, found: Found | None, stopped: S
 def _find_orbit(plan: Plan, experiment: Experiment, guess: Array | None, stopped: Stopped) -> Orbit:
     (found,) = find_orbits(plan, [Request(experiment, states=guess)], stopped=stopped)
     return orbit_of(plan, experiment, found, stopped)
-
-
-def _spread(columns: Array, places: list[int], count: int) -> Array:
-    """The columns (..., n) at their places among that many, the others not a number."""
-    spread = np.full((*columns.shape[:-1], count), np.nan)
-    spread[..., places] = columns
-    return spread
 
 
 def _again(plan: Plan, experiment: Experiment, found: Found, stopped: Stopped) -> Orbit:
