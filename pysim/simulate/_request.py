@@ -22,7 +22,7 @@ Array = NDArray[np.float64]
 Take = Callable[[int, Array, Array], None]
 
 
-_NOTHING: Mapping[str, float] = FrozenMapping({})
+NOTHING: Mapping[str, float] = FrozenMapping({})
 
 
 class Request(NamedTuple):
@@ -39,7 +39,7 @@ class Request(NamedTuple):
     """
 
     experiment: Experiment
-    values: Mapping[str, float] = _NOTHING
+    values: Mapping[str, float] = NOTHING
     states: Array | None = None
     start_by: Array | None = None
     settling: int = 4

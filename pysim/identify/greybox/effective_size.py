@@ -27,16 +27,13 @@ def inflation(left: Sequence[Array], changed: Sequence[Array]) -> float:
     if not left:
         return 1.0
     lags, channels = max(len(rows) for rows in left), left[0].shape[1]
-    power = sum(np.sum(change**2, axis=0) for change in changed)
-    total = float(np.sum(power))
-    if not total > 0:
-        return 1.0
-    found = 0.0
+    found = total = 0.0
     for j in range(channels):
         correlation = _memory([rest[:, j] for rest in left], lags)
         of_change = _products([change[:, j] for change in changed], correlation.size)
+        total += of_change[0]
         found += of_change[0] + 2 * float(correlation[1:] @ of_change[1:])
-    return max(found / total, 1.0)
+    return max(found / total, 1.0) if total > 0 else 1.0
 
 
 def _memory(rows: Sequence[Array], lags: int) -> Array:

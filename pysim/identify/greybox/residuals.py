@@ -525,8 +525,6 @@ def _stacked(parts: Sequence[Array]) -> Array:
 
 def _orbits(answer: Answer, n: int) -> tuple[list[Array | None], list[tuple[Array, Array] | None]]:
     """States of the orbits, which need no step of their own, and how they move with x."""
-    states: list[Array | None] = [None if orbit is None else orbit[0] for orbit in answer.orbits]
-    steps: list[tuple[Array, Array] | None] = [
-        None if orbit is None else (np.zeros(orbit[0].size), orbit[1][:, :n]) for orbit in answer.orbits
-    ]
-    return states, steps
+    nothing = next((np.zeros(orbit[0].size) for orbit in answer.orbits if orbit is not None), np.zeros(0))
+    states = [None if orbit is None else orbit[0] for orbit in answer.orbits]
+    return states, [None if orbit is None else (nothing, orbit[1][:, :n]) for orbit in answer.orbits]

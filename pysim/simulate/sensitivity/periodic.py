@@ -16,12 +16,11 @@ from pysim.simulate._foreign import Opened, open_model
 from pysim.simulate._found import Found
 from pysim.simulate._pass import later
 from pysim.simulate._pool import Stopped, side_by_side, worker_count
-from pysim.simulate._request import Request
+from pysim.simulate._request import NOTHING, Request
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.sensitivity.orbit import Orbit, Orbits, Plan, find_orbits, is_settled, orbit_of, remembers
 from pysim.simulate.sensitivity.probe import check_names, check_parameters, probe_each
 from pysim.types import BadInput, Experiment, Model, Signal
-from pysim.types._frozen import FrozenMapping, changed
 
 Array = NDArray[np.float64]
 
@@ -72,11 +71,6 @@ class Periodic:
     def experiment(self) -> Experiment:
         """One period from time 0, its end included."""
         return self._experiment
-
-    def override(self, **values: float) -> Periodic:
-        """The same test with more parameters set; what stays is not checked again."""
-        experiment = self._experiment.override(**values)
-        return changed(self, _experiment=experiment, overrides=experiment.overrides)
 
 
 def _repeats(signal: Signal, period: float) -> bool:
@@ -173,7 +167,7 @@ def check_periodic(
     starts = _check_guesses(model, tests, guesses)
     if not mismatch > 0:
         raise BadInput(f"periodic_many: mismatch must be positive, got {mismatch}")
-    sets = values or (FrozenMapping({}),) * len(tests)
+    sets = values or (NOTHING,) * len(tests)
     requests = tuple([Request(t.experiment(), v, s) for t, v, s in zip(tests, sets, starts, strict=True)])
     check_parameters("periodic_many", model, requests, names)
     return Ask(requests, names, solver, mismatch, count)
