@@ -158,9 +158,9 @@ def run_jobs(model: Model, jobs: Sequence[Job], solver: Esdirk, workers: int | N
     names, orbits = jobs[0].names, [job.run for job in jobs if isinstance(job.run, Periodic)]
     with _KEPT.use(model) as runs:
         if orbits:
-            values, guesses = [job.values for job in jobs], [job.guess for job in jobs]
+            values, guesses, left = [job.values for job in jobs], [job.guess for job in jobs], jobs[0].mismatch
             return runs.orbits(
-                orbits, names, values=values, guesses=guesses, solver=solver, mismatch=jobs[0].mismatch, workers=workers
+                orbits, names, values=values, guesses=guesses, solver=solver, mismatch=left, workers=workers
             )
         own = [job.run.override(**job.values) for job in jobs if isinstance(job.run, Experiment)]
         takes = [job.take for job in jobs]
