@@ -18,6 +18,9 @@ from pysim.types import Experiment, RecordFit, ResponseFit
 Array = NDArray[np.float64]
 
 
+_NO_STATES: Array = np.zeros((0, 0, 0))  # of hundreds of runs
+
+
 class Measure(Enum):
     """In what residuals are counted."""
 
@@ -79,7 +82,7 @@ class Simulated:
 
     values: Array
     slopes: Array
-    by_initial: Array = field(default_factory=lambda: np.zeros((0, 0, 0)))
+    by_initial: Array = field(default_factory=lambda: _NO_STATES)
     reduction: Reduction | None = None
 
 
