@@ -1,9 +1,8 @@
 """What a data set holds, shown."""
 
 from pysim.identify.data_check import DataCheck
-from pysim.present.data_check.answer import data, text, warnings_in_words
+from pysim.present.data_check.answer import data, page, text, warnings_in_words
 from pysim.present.data_check.figures import coverage_figure, figures, sine_logs_figure, time_logs_figure
-from pysim.present.data_check.page import page
 from pysim.present.data_check.words import lines, sentence
 
 __all__ = [

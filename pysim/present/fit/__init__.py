@@ -1,6 +1,6 @@
 """Fitted parameters, shown."""
 
-from pysim.present.fit.answer import Fitted, data, files, text, whole
+from pysim.present.fit.answer import Fitted, data, files, page, text, whole
 from pysim.present.fit.figures import (
     figures,
     fit_correlation_figure,
@@ -8,7 +8,6 @@ from pysim.present.fit.figures import (
     fit_parameters_figure,
     fit_record_figure,
 )
-from pysim.present.fit.page import page
 from pysim.types import Fit
 
 __all__ = [
