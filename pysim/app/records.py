@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from itertools import pairwise
 from pathlib import PurePosixPath
 from typing import Any
@@ -16,24 +16,12 @@ from pysim.app.answers import Answer
 from pysim.io import shown_unit
 from pysim.io.prepare.log_names import PART
 from pysim.present.charts import LOOKS, Chart
-from pysim.present.overlay import overlay_chart, signal_trace
+from pysim.present.overlay import Line, compared_lines, overlay_chart, traces
 from pysim.types import Dataset, MeasuredRecord, Record
 
 Array = NDArray[np.float64]
 
 MOST = 1600  # points of a line on the screen
-
-
-@dataclass(frozen=True)
-class Line:
-    """One line of an overlay: key of LOOKS, words, panel from 1, unit, and its samples (n,)."""
-
-    key: str
-    words: str
-    panel: int
-    unit: str
-    time: Array = field(repr=False)
-    values: Array = field(repr=False)
 
 
 @dataclass(frozen=True)
@@ -70,14 +58,7 @@ class Overlay:
     def figure(self) -> Chart:
         """The whole record."""
         xs, ys, _ = self.samples(*self.span)
-        seen: set[str] = set()
-        traces = []
-        for line, x, y in zip(self.lines, xs, ys, strict=True):
-            traces.append(
-                signal_trace(line.key, line.words, line.panel, x, y, legend=line.key not in seen, unit=line.unit)
-            )
-            seen.add(line.key)
-        return overlay_chart(self.names, self.units, self.models, traces)
+        return overlay_chart(self.names, self.units, self.models, traces(self.lines, list(zip(xs, ys, strict=True))))
 
 
 def stage_keys(answer: Answer) -> list[tuple[str, str, Mapping[str, Any]]]:
@@ -119,21 +100,15 @@ def compared_overlay(answer: Answer, number: int) -> Overlay | None:
     found = [(key, words, own) for key, words, own in sides if own is not None]
     if not found:
         return None
-    first = found[0][2]
-    time, measured = answer.stages.array(first["time"]), answer.stages.array(first["measured"])
-    units, scales = _shown(first["units"])
-    simulated = {key: answer.stages.array(own["simulated"]) for key, _, own in found}
-    against = {key: answer.stages.array(own["measured"]) for key, _, own in found}
-    lines: list[Line] = []
-    for j in range(len(first["names"])):
-        lines.append(Line("measured", "measured", 2 * j + 1, units[j], time, measured[:, j] * scales[j]))
-        for key, words, _ in found:
-            lines.append(Line(key, words, 2 * j + 1, units[j], time, simulated[key][:, j] * scales[j]))
-        for key, words, own in found[1:] or found:  # what the untouched model leaves would hide the others
-            left = (against[key][:, j] - simulated[key][:, j]) / own["noise"][j]
-            lines.append(Line(key, words, 2 * j + 2, "times the noise", time, left))
-    models = tuple((key, words) for key, words, _ in found)
-    return Overlay(tuple(first["names"]), units, models, tuple(lines))
+    array, first = answer.stages.array, found[0][2]
+    models = []
+    for key, words, own in found:
+        simulated, hidden = array(own["simulated"]), own is first and len(found) > 1  # what it leaves would hide theirs
+        left = None if hidden else (array(own["measured"]) - simulated) / np.array(own["noise"])
+        models.append((key, words, array(own["time"]), simulated, left))
+    lines = compared_lines(first["units"], array(first["time"]), array(first["measured"]), models)
+    names = tuple((key, words) for key, words, _ in found)
+    return Overlay(tuple(first["names"]), _shown(first["units"])[0], names, tuple(lines))
 
 
 def _of(stage: Mapping[str, Any], number: int) -> Mapping[str, Any] | None:

@@ -20,11 +20,10 @@ from pysim.nouns.data import Data
 from pysim.nouns.example import EXAMPLES, example_folder
 from pysim.nouns.model import model as opened_model
 from pysim.present import data, write_report
-from pysim.present.diagnosis import Diagnosed, files
-from pysim.present.diagnosis.words import added_sentence, comparison_sentence, learned_sentence, ranking_sentence
+from pysim.present.diagnosis import Diagnosed, answered, files
 from pysim.present.model import Inside
 from pysim.present.progress import EventFile
-from pysim.present.report import PAGE, with_places
+from pysim.present.report import CHECKPOINT, PAGE, mark, with_places
 from pysim.types import BadInput, Diagnosis, ProgressEvent
 from pysim.workflow import (
     SessionParts,
@@ -39,14 +38,6 @@ from pysim.workflow import (
     whole_answer,
     write_extended,
 )
-
-CHECKPOINT, MARKER = "checkpoint.jsonl", ".pysim-answer"  # in the folder of a report, as the command line has them
-_WORDS: Mapping[str, tuple[str, Callable[[Diagnosis], str]]] = {  # work -> what is asked, and what answers it
-    "compare": ("How far is the model from its measurements?", comparison_sentence),
-    "locate": ("Where is what missing?", learned_sentence),
-    "rank": ("What would each effect explain?", ranking_sentence),
-    "add": ("What do the effects mend?", added_sentence),
-}
 
 
 class Tasks:
@@ -112,7 +103,7 @@ class Tasks:
             whole = with_places(result, {"report": folder / REPORT / PAGE}, folder)
             write_stages(folder / RECORDS, result.found.history)
             write_file(folder / ANSWER, json.dumps(data(whole), indent=1, allow_nan=False))
-            write_file(folder / REPORT / MARKER, "".join(f"{name}\n" for name in beside))
+            mark(folder / REPORT, beside)
 
     def report(self, name: str) -> None:
         """Draw the report of a result; one that is not kept goes on from its checkpoint, to its end."""
@@ -125,8 +116,8 @@ class Tasks:
             result = self._found[name] if kept else self._result(job.work, lambda event: None)
             written = write_report(folder / REPORT, result, redo=command_line(job.work.words))
             more = {path.with_suffix(suffix).name for path in written.values() for suffix in (path.suffix, ".svg")}
-            names = [one for one in sorted({*result.files.values(), *more}) if (folder / REPORT / one).is_file()]
-            write_file(folder / REPORT / MARKER, "".join(f"{one}\n" for one in names))
+            names = [one for one in {*result.files.values(), *more} if (folder / REPORT / one).is_file()]
+            mark(folder / REPORT, names)
 
     def _opened(self, laws: Sequence[str]) -> SessionParts:
         """The project's model and data, opened once while they stay as they are, with the libraries of some laws."""
@@ -148,15 +139,9 @@ class Tasks:
         report = self._project.results(work.name) / REPORT
         report.mkdir(exist_ok=True)
         found = _steps(work, parts)(progress=tell, checkpoint=report / CHECKPOINT)
-        conditions = {
-            "data set": f"{parts.dataset.name}, {len(parts.dataset.records)} records, data",
-            "command": command_line(work.words),
-        }
-        found = whole_answer(found, parts, conditions)
-        asked, answer = _WORDS.get(work.kind, ("Which effect is missing?", lambda found: ""))
-        title = f"{parts.model_name} against {parts.dataset.name}"
+        found = whole_answer(found, parts, place="data", command=command_line(work.words))
         beside = {name: path.name for name, path in write_extended(found, parts, report).items()}
-        self._found[work.name] = Diagnosed(found, parts.dataset, title, asked, answer(found), files=beside)
+        self._found[work.name] = answered(work.kind, found, parts.dataset, parts.model_name, beside)
         return self._found[work.name]
 
 

@@ -44,7 +44,7 @@ from pysim.workflow import command_line
 if TYPE_CHECKING:
     from pysim.present.progress import ProgressBar
 
-DONE, NO = 0, 1
+DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3  # exit codes
 
 
 @dataclass(frozen=True)

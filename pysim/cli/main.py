@@ -13,10 +13,8 @@ from functools import cache
 from importlib import import_module
 from typing import NoReturn
 
-from pysim.cli.command import Command
+from pysim.cli.command import NO, OUR_BUG, WRONG_USE, Command
 from pysim.cli.option import did_you_mean
-
-DONE, NO, WRONG_USE, OUR_BUG = 0, 1, 2, 3
 
 
 @cache

@@ -173,6 +173,7 @@ LIBRARY = file(
     repeated=True,
     role=Role.READ,
 )
+PLAN = text("--plan", "PLAN", "a .toml, or a plan of this program: bench-01, thesis", required=True)
 SIGNAL = text("--signal", "NAME", "name of the response, if the logs hold several")
 REFERENCE_HZ = text(
     "--reference-hz",

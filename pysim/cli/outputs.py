@@ -12,9 +12,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-JSON = (".json",)
-MARKER = ".pysim-answer"  # in the folder: the names of our files, a line each
-LOG, CHECKPOINT = "log", "checkpoint.jsonl"  # in the folder: what a stopped fit, and a stopped diagnosis, goes on from
+from pysim.present.report import CHECKPOINT, MARKER, mark
+
+LOG = "log"  # in the folder: what a stopped fit goes on from
 _GO_ON = (LOG, CHECKPOINT)
 _NEW = ".pysim-new"  # in the folder while an answer is written
 _OF_THE_SYSTEM = {".DS_Store", "Thumbs.db", "desktop.ini"}  # whoever looks into a folder leaves one; they stay
@@ -163,12 +163,12 @@ def _replace(folder: Path, new: Path, beside: set[str]) -> None:
     """Move the files of the new answer in; every state in between is known to be ours."""
     coming, earlier, there = {path.name for path in new.iterdir()}, _listed(folder), set(_files(folder))
     kept = beside | {name for name in there if any(name.startswith(f"{one}/") for one in beside)}
-    _mark(folder, earlier | coming | kept)
+    mark(folder, earlier | coming | kept)
     for name in sorted((earlier & there) - coming - kept):
         _remove(folder, folder / name)
     for name in sorted(coming):
         (new / name).replace(folder / name)
-    _mark(folder, coming | kept)
+    mark(folder, coming | kept)
 
 
 def _remove(folder: Path, path: Path) -> None:
@@ -178,12 +178,6 @@ def _remove(folder: Path, path: Path) -> None:
         with suppress(OSError):  # something else is in it
             if parent.name:
                 (folder / parent).rmdir()
-
-
-def _mark(folder: Path, names: set[str]) -> None:
-    from pysim.io import write_file
-
-    write_file(folder / MARKER, "".join(f"{name}\n" for name in sorted(names)))
 
 
 def _listed(folder: Path) -> set[str]:

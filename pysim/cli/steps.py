@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from pysim.cli.command import Command, Given
 from pysim.cli.option import Option, file
 from pysim.cli.options import BOUNDS, DATASET, FREE, JSON, LIBRARY, MODEL, OUTPUT, PARAMETERS, REFERENCE_HZ, SET
-from pysim.cli.outputs import CHECKPOINT
+from pysim.present.report import CHECKPOINT
 
 if TYPE_CHECKING:
     from pysim.present.diagnosis import Diagnosed
@@ -72,23 +72,16 @@ def read_parts(given: Given, *, refits: bool = True, only: Sequence[str] = ()) -
     )
 
 
-def run_step(
-    given: Given,
-    parts: SessionParts,
-    work: Callable[..., Diagnosis],
-    *,
-    question: str = "Which effect is missing?",
-    answer: Callable[[Diagnosis], str] | None = None,
-) -> Diagnosed:
+def run_step(given: Given, parts: SessionParts, work: Callable[..., Diagnosis], step: str = "") -> Diagnosed:
     """Run a step of the diagnosis and show it; `--output` holds a checkpoint from which a stopped run goes on.
 
     Args:
         work: the step; takes `progress`, which receives each event, and `checkpoint`, a path or None.
-        question, answer: what leads text and page; the verdict by default.
+        step: its name, for what it asks; that of the command by default.
     Raises:
         KeyboardInterrupt: stopped by the user; says how to go on.
     """
-    from pysim.present.diagnosis import Diagnosed
+    from pysim.present.diagnosis import answered
     from pysim.present.progress import EventFile, Unfolding, announce_compilation
     from pysim.types import ProgressEvent
     from pysim.workflow import whole_answer
@@ -106,11 +99,9 @@ def run_step(
         found = work(progress=progress, checkpoint=checkpoint)
         if log is not None:  # a program that follows must know why it does not end yet
             log(ProgressEvent("writing report and files"))
-    asked = f"{parts.dataset.name}, {len(parts.dataset.records)} records, {given.typed['dataset']}"
-    found = whole_answer(found, parts, {"data set": asked, "command": given.repeated})  # what repeats it
-    sentence = answer(found) if answer is not None else ""
+    found = whole_answer(found, parts, place=str(given.typed["dataset"]), command=given.repeated)
     given.opened = parts
-    return Diagnosed(found, parts.dataset, f"{parts.model_name} against {parts.dataset.name}", question, sentence)
+    return answered(step or given.command.name, found, parts.dataset, parts.model_name)
 
 
 def write_model(given: Given, result: Diagnosed, folder: Path) -> Diagnosed:

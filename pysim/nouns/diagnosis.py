@@ -230,15 +230,15 @@ class Diagnosis(Shown):
     def report(self, folder: Path | str) -> dict[str, Path]:
         """Write report.html with its pictures, the fitted values, and class and FMU where effects were added."""
         from pysim.present import write_report
-        from pysim.present.diagnosis import Diagnosed
+        from pysim.present.diagnosis import answered
         from pysim.workflow import write_extended
 
         place = Path(folder)
         place.mkdir(parents=True, exist_ok=True)
         files = write_extended(self.found, self.parts, place)
-        title = f"{self.parts.model_name} against {self.parts.dataset.name}"
         beside = {name: path.name for name, path in files.items()}
-        return write_report(place, Diagnosed(self.found, self.parts.dataset, title, files=beside)) | files
+        result = answered("diagnose", self.found, self.parts.dataset, self.parts.model_name, beside)
+        return write_report(place, result) | files
 
     @property
     def table(self) -> Table:

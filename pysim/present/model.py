@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -54,9 +54,13 @@ def text(result: Inside) -> str:
 
 def data(result: Inside) -> dict[str, Any]:
     """All of it, with its parts and their links, and a picture of each effect's law."""
-    libraries = list(result.libraries)
+    from pysim.effects import STANDARD_LIBRARY
+    from pysim.effects.structure import structure
+
+    libraries = [STANDARD_LIBRARY, *result.libraries]
     found = _data(result.model, result.class_name, result.slots)
-    found |= {"structure": _structure(result.class_name, libraries)}
+    # parts and what links them; not known of an FMU without its class
+    found["structure"] = asdict(structure(result.class_name, libraries)) if result.class_name else None
     found["effects"] = [_effect(effect, result.model, result.slots, libraries) for effect in result.effects]
     return found
 
@@ -80,25 +84,13 @@ def _data(model: Model, class_name: str, slots: tuple[Slot, ...]) -> dict[str, A
     }
 
 
-def _structure(class_name: str, libraries: list[Path]) -> dict[str, Any] | None:
-    """Parts and what links them; None for an FMU without its class."""
-    from dataclasses import asdict
-
-    from pysim.effects import STANDARD_LIBRARY
-    from pysim.effects.structure import structure
-
-    return asdict(structure(class_name, [STANDARD_LIBRARY, *libraries])) if class_name else None
-
-
 def _effect(effect: Effect, model: Model, slots: tuple[Slot, ...], libraries: list[Path]) -> dict[str, Any]:
     """What an effect is, with a picture of its law where a few strokes show it."""
-    from dataclasses import asdict
-
-    from pysim.effects import STANDARD_LIBRARY, law_constants, law_sketch
+    from pysim.effects import law_constants, law_sketch
 
     slot = next(slot for slot in slots if slot.name == effect.slot)
     around = {v.name: (v.start, v.unit) for v in _of(model, "parameter") if v.start is not None}
-    constants = law_constants(effect, [STANDARD_LIBRARY, *libraries])
+    constants = law_constants(effect, libraries)
     drawn = law_sketch(effect, slot, constants, around)
     parameters = [
         {"name": p.name, "unit": p.unit, "nominal": p.nominal, "default": p.default, "about": p.description}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
@@ -15,7 +16,7 @@ from pysim.present.page import page as whole_page
 from pysim.present.plain_text import aligned
 from pysim.present.render import Drawing, Picture
 from pysim.present.style import COLOURS, LIMIT, MEASURED, TEXT, frequency_axis, legend_above, panels, phase_axis
-from pysim.types import BadInput, BestLinearApproximation, Distortion, Level
+from pysim.types import BestLinearApproximation, Distortion, Level
 from pysim.types.json_number import json_data
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ def figures(result: Approximations) -> Iterator[Picture]:
     """One per approximation."""
     for i, (name, bla) in enumerate(result.found, start=1):
         caption = f"{name}: gain with its 95 percent band, and the levels beside it; points are single lines."
-        yield Picture(f"multisine_{i}", caption, multisine_figure([bla], [name]))
+        yield Picture(f"multisine_{i}", caption, multisine_figure(bla, name))
 
 
 def page(result: Approximations, drawings: Sequence[Drawing], redo: str) -> str:
@@ -206,34 +207,20 @@ def _level_data(level: Level) -> dict[str, Any]:
     return {**found, "power": level.power, "noise": level.noise, "p_value": distortion_p_value(level)}
 
 
-def multisine_figure(approximations: Sequence[BestLinearApproximation], titles: Sequence[str]) -> Figure:
-    """Magnitude and levels (dB) above the phase (deg) over frequency; a column per approximation.
+def multisine_figure(bla: BestLinearApproximation, title: str) -> Figure:
+    """Magnitude and levels (dB) above the phase (deg) over frequency.
 
     Points are single lines, curves means over neighbouring ones; a level below what the noise lets see is not drawn.
-
-    Args:
-        approximations: at least one.
-        titles: as many, what sets the columns apart.
-    Raises:
-        BadInput: no approximation, or another number of titles.
     """
-    if not approximations or len(approximations) != len(titles):
-        raise BadInput("multisine figure: give at least one approximation, and a title for each")
-    count = len(approximations)
-    width = max(8.0, 2.4 + 3.9 * count)  # at least as wide as the legend
-    figure, axes = panels(width, 6.4, 2, count, sharex="col", sharey="row", height_ratios=(2.2, 1))
+    figure, ((top,), (bottom,)) = panels(8.0, 6.4, 2, sharex=True, height_ratios=(2.2, 1))
     handles: dict[str, Any] = {}
-    for column, (bla, title) in enumerate(zip(approximations, titles, strict=True)):
-        top, bottom = axes[:, column]
-        _draw_levels(top, bla, handles)
-        _draw_gain(top, bottom, bla, handles)
-        top.set_title(title, fontsize=TEXT)
-        frequency_axis(bottom, bla.frequency[0], bla.frequency[-1])
-        bottom.set_xlabel("Frequency (Hz)")
-    unit = _gain_unit(approximations[0])
-    phase_axis(axes[1, 0])
-    axes[1, 0].set(ylabel="Phase (deg)", ylim=_phase_range(approximations))
-    axes[0, 0].set(ylabel=f"Gain and levels (dB re 1{unit})", ylim=(_floor(approximations), None))
+    _draw_levels(top, bla, handles)
+    _draw_gain(top, bottom, bla, handles)
+    top.set_title(title, fontsize=TEXT)
+    top.set(ylabel=f"Gain and levels (dB re 1{_gain_unit(bla)})", ylim=(_floor(bla), None))
+    frequency_axis(bottom, bla.frequency[0], bla.frequency[-1])
+    phase_axis(bottom)
+    bottom.set(xlabel="Frequency (Hz)", ylabel="Phase (deg)", ylim=_phase_range(bla))
     legend_above(figure, list(handles.values()), list(handles))
     return figure
 
@@ -256,15 +243,13 @@ def _phase(bla: BestLinearApproximation) -> tuple[Array, Array]:
     return np.degrees(np.unwrap(np.angle(bla.gain))), np.degrees(gain_interval(bla)[1])
 
 
-def _phase_range(approximations: Sequence[BestLinearApproximation]) -> tuple[float, float]:
+def _phase_range(bla: BestLinearApproximation) -> tuple[float, float]:
     """Ends of the phase axis: what is known at all, with its intervals."""
-    ends = []
-    for bla in approximations:
-        phase, half = _phase(bla)
-        sure = half < _SURE_DEG if np.any(half < _SURE_DEG) else np.full(half.size, True)
-        ends += [float(np.min((phase - half)[sure])), float(np.max((phase + half)[sure]))]
-    margin = 0.05 * (max(ends) - min(ends)) + 1.0
-    return min(ends) - margin, max(ends) + margin
+    phase, half = _phase(bla)
+    sure = half < _SURE_DEG if np.any(half < _SURE_DEG) else np.full(half.size, True)
+    low, high = float(np.min((phase - half)[sure])), float(np.max((phase + half)[sure]))
+    margin = 0.05 * (high - low) + 1.0
+    return low - margin, high + margin
 
 
 def _draw_levels(axes: Axes, bla: BestLinearApproximation, handles: dict[str, Any]) -> None:
@@ -296,11 +281,11 @@ def _db(variance: Array) -> Array:
     return 10 * np.log10(np.where(variance > 0, variance, np.nan))
 
 
-def _floor(approximations: Sequence[BestLinearApproximation]) -> float | None:
+def _floor(bla: BestLinearApproximation) -> float | None:
     """The lower end of the axis: a little under nearly all of the lowest noise."""
-    levels = [bla.noise or bla.total for bla in approximations]
-    seen = [float(np.nanquantile(_db(level.variance), _NEARLY_NONE)) for level in levels if level is not None]
-    return min(seen) - _BELOW_NOISE_DB if seen and np.isfinite(seen).all() else None
+    level = bla.noise or bla.total
+    seen = math.nan if level is None else float(np.nanquantile(_db(level.variance), _NEARLY_NONE))
+    return seen - _BELOW_NOISE_DB if math.isfinite(seen) else None
 
 
 def _gain_unit(bla: BestLinearApproximation) -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from itertools import cycle
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from matplotlib.artist import Artist
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+    from numpy.typing import NDArray
+
+    Array = NDArray[np.float64]
 
 _MANY = 5000  # samples beyond which lines are drawn as pixels
 _SMOOTH = 5  # samples of the running mean that shows what of a residual is more than noise
@@ -110,27 +114,53 @@ def _percent(record: RecordFit) -> str:
     return "fit " + ", ".join(f"{name} {value:.1f} %" for name, value in fits.items())
 
 
+class Line(NamedTuple):
+    """A line of an overlay: key of LOOKS, words, panel from 1, unit, times (n,) in s and values (n,) in that unit."""
+
+    key: str
+    words: str
+    panel: int
+    unit: str
+    time: Array
+    values: Array
+
+
+def compared_lines(
+    units: Sequence[str],
+    time: Array,
+    measured: Array,
+    models: Sequence[tuple[str, str, Array, Array, Array | None]],
+) -> list[Line]:
+    """Each signal as measured and as models have it, and in the panel below it what each leaves.
+
+    Args:
+        units: of the signals, SI.
+        time, measured: (n,) in s, and (n, n_y).
+        models: key of LOOKS, words, times (m,), simulated (m, n_y), and what is left over noise (m, n_y), or None.
+    """
+    lines = []
+    for j, (unit, factor) in enumerate(map(shown_unit, units)):
+        lines.append(Line("measured", "measured", 2 * j + 1, unit, time, factor * measured[:, j]))
+        lines += [Line(key, words, 2 * j + 1, unit, at, factor * y[:, j]) for key, words, at, y, _ in models]
+        shown = [(key, words, at, left) for key, words, at, _, left in models if left is not None]
+        lines += [Line(key, words, 2 * j + 2, "times the noise", at, left[:, j]) for key, words, at, left in shown]
+    return lines
+
+
 def beside_chart(beside: Mapping[str, RecordFit]) -> Chart:
     """One log, measured and as each model has it, and below it what each leaves.
 
     Args:
         beside: name of a model -> the log beside it.
     """
-    first = next(iter(beside.values())).measured
-    shown = [shown_unit(unit) for unit in first.units]
-    keys = {name: _MODELS[k % len(_MODELS)] for k, name in enumerate(beside)}
-    traces = []
-    for j, (unit, factor) in enumerate(shown):
-        at = 2 * j + 1
-        traces.append(_line("measured", "measured", at, first.time, factor * first.values[:, j], j == 0, unit))
-        for name, one in beside.items():
-            y = factor * one.simulated.values[:, j]
-            words = f"{name}: fit {one.fit_percent[first.names[j]]:.1f} %"
-            traces.append(_line(keys[name], words, at, one.simulated.time, y, j == 0, unit))
-            left, unit_left = one.residual.values[:, j], "times the noise"
-            traces.append(_line(keys[name], name, at + 1, one.residual.time, left, False, unit_left))
-    models = [(key, name) for name, key in keys.items()]
-    return overlay_chart(first.names, [unit for unit, _ in shown], models, traces)
+    log = next(iter(beside.values())).measured
+    models = [
+        (key, f"{name}: {_percent(one)}", one.simulated.time, one.simulated.values, one.residual.values)
+        for (name, one), key in zip(beside.items(), cycle(_MODELS), strict=False)
+    ]
+    lines = compared_lines(log.units, log.time, log.values, models)
+    shown = [shown_unit(unit)[0] for unit in log.units]
+    return overlay_chart(log.names, shown, [(key, words) for key, words, *_ in models], traces(lines))
 
 
 def time_response_figure(records: Mapping[str, Record], signals: Sequence[str]) -> Figure:
@@ -172,17 +202,26 @@ def lines_chart(records: Mapping[str, Record]) -> Chart:
     if not units:
         raise BadInput("nothing to draw: there is no log over time")
     shown = {name: shown_unit(unit) for name, unit in units.items()}
-    traces = []
-    for k, (words, one) in enumerate(records.items()):
-        for name in one.names:
-            (unit, factor), panel = shown[name], list(units).index(name) + 1
-            key = list(LOOKS)[k % len(LOOKS)]
-            traces.append(_line(key, words, panel, one.time, factor * one[name], name == one.names[0], unit))
-    return overlay_chart(list(units), [unit for unit, _ in shown.values()], [], traces)
+    lines = [
+        Line(key, words, [*units].index(name) + 1, shown[name][0], one.time, shown[name][1] * one[name])
+        for (words, one), key in zip(records.items(), cycle(LOOKS), strict=False)
+        for name in one.names
+    ]
+    return overlay_chart([*units], [unit for unit, _ in shown.values()], [], traces(lines))
 
 
-def _line(key: str, words: str, panel: int, x: Any, y: Any, legend: bool, unit: str) -> dict[str, Any]:
-    return signal_trace(key, words, panel, x.tolist(), y.tolist(), legend=legend, unit=unit) | {"legendgroup": words}
+def traces(lines: Sequence[Line], points: Sequence[tuple[Any, Any]] = ()) -> list[dict[str, Any]]:
+    """Lines as `overlay_chart` takes them, each name once in the legend.
+
+    Args:
+        points: of each line, times and values to draw; all samples where there are none.
+    """
+    found: list[dict[str, Any]] = []
+    for line, (x, y) in zip(lines, points or [(one.time.tolist(), one.values.tolist()) for one in lines], strict=True):
+        legend = all(line.words != one["legendgroup"] for one in found)
+        trace = signal_trace(line.key, line.words, line.panel, x, y, legend=legend, unit=line.unit)
+        found.append(trace | {"legendgroup": line.words})
+    return found
 
 
 def overlay_chart(
@@ -193,7 +232,7 @@ def overlay_chart(
     Args:
         names, units: of the signals.
         models: key of LOOKS and words of each model.
-        traces: as `signal_traces` gives them.
+        traces: as `traces` gives them.
     """
     layout: dict[str, Any] = {"xaxis": axis("Time (s)", showgrid=True)}
     heights = [weight for _ in names for weight in ((3.0, 1.6) if models else (3.0,))]

@@ -9,7 +9,8 @@ from typing import Any, Protocol, cast
 
 from pysim.present.render import Drawing, Picture, draw
 
-PAGE = "report.html"
+# The folder of an answer: its page, the names of our files, a line each, and what a stopped diagnosis goes on from.
+PAGE, MARKER, CHECKPOINT = "report.html", ".pysim-answer", "checkpoint.jsonl"
 VIEWS = {  # type of a result -> the module that shows it, and that exports the type
     "Approximations": "pysim.present.multisine",
     "Checked": "pysim.present.fmu_check",
@@ -103,6 +104,13 @@ def write_report(folder: Path, result: object, *, redo: str = "") -> dict[str, P
     write_file(folder / PAGE, view.page(result, drawings, redo))
     written = {one.name: folder / f"{one.name}.png" for one in drawings}
     return {"report": folder / PAGE, **written, **{Path(name).stem: folder / name for name in contents}}
+
+
+def mark(folder: Path, names: Iterable[str]) -> None:
+    """Write the names of our files into the folder of an answer, so that the next one may replace them."""
+    from pysim.io import write_file
+
+    write_file(folder / MARKER, "".join(f"{name}\n" for name in sorted(names)))
 
 
 def with_places(result: Any, written: Mapping[str, Path], home: Path) -> Any:

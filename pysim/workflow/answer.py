@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import replace
 
 from pysim.diagnosis.response_comparison import versions
@@ -11,23 +10,24 @@ from pysim.workflow.learned import with_classes
 from pysim.workflow.session import SessionParts
 
 
-def whole_answer(found: Diagnosis, parts: SessionParts, more: Mapping[str, str] | None = None) -> Diagnosis:
+def whole_answer(found: Diagnosis, parts: SessionParts, *, place: str = "", command: str = "") -> Diagnosis:
     """The answer with its conditions, and with a class for each law that was learned.
 
     Args:
-        more: conditions that whoever asked knows, such as the command.
+        place, command: where the data set is, and what gives the answer again; "" where there is none.
     """
-    found = replace(found, conditions={**_conditions(parts), **(more or {}), **found.conditions})
+    conditions = _conditions(parts, place) | ({"command": command} if command else {})
+    found = replace(found, conditions={**conditions, **found.conditions})
     if found.learned and parts.variants is not None:
         found = with_classes(found, parts.variants.class_name, parts.variants.libraries)
     return found
 
 
-def _conditions(parts: SessionParts) -> dict[str, str]:
+def _conditions(parts: SessionParts, place: str) -> dict[str, str]:
     model = parts.model
     return {
         "model": f"{parts.model_name}, FMI {model.abilities.fmi}, token {model.token}",
-        "data set": f"{parts.dataset.name}, {len(parts.dataset.records)} records",
+        "data set": f"{parts.dataset.name}, {len(parts.dataset.records)} records{f', {place}' if place else ''}",
         "libraries": ", ".join(str(library) for library in parts.libraries) or "the one that comes along",
         "free parameters": ", ".join(parts.free) or "none",
         "parameters set": ", ".join(f"{name} = {value:g}" for name, value in parts.overrides.items()) or "none",

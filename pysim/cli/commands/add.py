@@ -16,13 +16,10 @@ if TYPE_CHECKING:
 def run(given: Given) -> Diagnosed:
     """What each effect does to the error, on logs that are fitted and that are not."""
     from pysim.diagnosis import add
-    from pysim.present.diagnosis.words import added_sentence
     from pysim.workflow import effects_of, session_of
 
     parts = read_parts(given)
-    effects = effects_of(given.effects, parts)
-    work = partial(add, session_of(parts), effects)
-    return run_step(given, parts, work, question="What do the effects mend?", answer=added_sentence)
+    return run_step(given, parts, partial(add, session_of(parts), effects_of(given.effects, parts)))
 
 
 COMMAND = step_command(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from pysim.cli.command import DONE, Command, Given
 from pysim.cli.option import Option, number, text
-from pysim.cli.options import LIBRARY, MODEL_FIRST, PARAMETERS, SET
+from pysim.cli.options import LIBRARY, MODEL_FIRST, PARAMETERS, PLAN, SET
 
 if TYPE_CHECKING:
     from pysim.bench import Plan
@@ -82,7 +82,7 @@ COMMAND = Command(
     options=(
         MODEL_FIRST,
         LIBRARY,
-        text("--plan", "PLAN", "a .toml, or a plan of this program: bench-01, thesis", required=True),
+        PLAN,
         Option(("-o", "--output"), "new folder for the data set", "FOLDER", convert=Path, required=True),
         number("--seed", "N", None, "random seed of the noise", convert=int, required=True),
         Option(("--truth",), "write parameters and effect here, outside FOLDER", "FILE.json", convert=Path),

@@ -45,13 +45,10 @@ def _refuse_idle(given: Given) -> None:
 def _logs(given: Given) -> Diagnosed:
     """Every record beside the model as it is, and refitted where that is asked for."""
     from pysim.diagnosis import compare
-    from pysim.present.diagnosis.words import comparison_sentence
     from pysim.workflow import session_of
 
     parts = read_parts(given, refits=given.refit)
-    work = partial(compare, session_of(parts), refitted=given.refit)
-    question = "How far is the model from its measurements?"
-    return run_step(given, parts, work, question=question, answer=comparison_sentence)
+    return run_step(given, parts, partial(compare, session_of(parts), refitted=given.refit))
 
 
 def _responses(given: Given, dataset: Dataset) -> Comparison:

@@ -16,7 +16,6 @@ if TYPE_CHECKING:
 def run(given: Given) -> Diagnosed:
     """The verdict; without effects to add, what each candidate gains, screened or refitted."""
     from pysim.diagnosis import Settings, diagnose, rank
-    from pysim.present.diagnosis.words import ranking_sentence
     from pysim.types import BadInput
     from pysim.workflow import session_of
 
@@ -25,10 +24,7 @@ def run(given: Given) -> Diagnosed:
         raise BadInput(f"--max-effects {most}: write how many effects may be added, 0 or more")
     parts = read_parts(given, only=given.effects)
     session = session_of(parts, Settings(max_effects=most))
-    if most:
-        return run_step(given, parts, partial(diagnose, session))
-    question = "What would each effect explain?"
-    return run_step(given, parts, partial(rank, session), question=question, answer=ranking_sentence)
+    return run_step(given, parts, partial(diagnose if most else rank, session), "diagnose" if most else "rank")
 
 
 COMMAND = step_command(

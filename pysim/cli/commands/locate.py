@@ -16,13 +16,11 @@ if TYPE_CHECKING:
 def run(given: Given) -> Diagnosed:
     """The places with the law that each would need."""
     from pysim.diagnosis import learn
-    from pysim.present.diagnosis.words import learned_sentence
     from pysim.workflow import effects_of, session_of
 
     parts, there = read_parts(given), getattr(given, "with")  # a word of Python
     effects = effects_of(there, parts) if there else ()
-    work = partial(learn, session_of(parts), effects)
-    return run_step(given, parts, work, question="Where is what missing?", answer=learned_sentence)
+    return run_step(given, parts, partial(learn, session_of(parts), effects))
 
 
 COMMAND = step_command(

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from pysim.cli.command import DONE, Command, Given
 from pysim.cli.option import Option, Role, choice, file, number, switch, text
+from pysim.cli.options import PLAN
 
 if TYPE_CHECKING:
     from pysim.excitation import Excitation, LeadIn
@@ -216,7 +217,7 @@ COMMAND = Command(
             "every command of a test plan, for LabVIEW or a signal generator, and the dataset.toml of its logs",
             _plan,
             options=(
-                text("--plan", "PLAN", "a .toml, or a plan of this program: bench-01, thesis", required=True),
+                PLAN,
                 Option(
                     ("--into",), "new folder for the commands and, later, the logs", "DIR", convert=Path, required=True
                 ),

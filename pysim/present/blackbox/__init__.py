@@ -1,7 +1,6 @@
 """Fitted transfer functions, shown."""
 
-from pysim.present.blackbox.answer import TransferFunctions, data, text
-from pysim.present.blackbox.figure import blackbox_figure, figures
-from pysim.present.blackbox.page import page
+from pysim.present.blackbox.answer import TransferFunctions, data, page, text
+from pysim.present.blackbox.figure import figures
 
-__all__ = ["TransferFunctions", "blackbox_figure", "data", "figures", "page", "text"]
+__all__ = ["TransferFunctions", "data", "figures", "page", "text"]

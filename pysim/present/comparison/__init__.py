@@ -1,8 +1,16 @@
 """Models against measured responses, shown."""
 
-from pysim.present.comparison.answer import Comparisons, comparison_text, data, text, verdict_text, whole
+from pysim.present.comparison.answer import (
+    Comparisons,
+    comparison_table,
+    comparison_text,
+    data,
+    page,
+    text,
+    verdict_text,
+    whole,
+)
 from pysim.present.comparison.figures import bode_figure, comparison_picture, deviation_figure, figures, picture_names
-from pysim.present.comparison.page import comparison_table, page
 from pysim.types import Comparison
 
 __all__ = [

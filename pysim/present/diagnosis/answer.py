@@ -12,6 +12,7 @@ from pysim.identify.greybox import step_warnings
 from pysim.io import shown_value
 from pysim.present.diagnosis.law_words import ABSORBED, law_kind
 from pysim.present.diagnosis.words import (
+    QUESTIONS,
     UNIT,
     candidates_shown,
     errors,
@@ -59,6 +60,19 @@ def whole(result: Diagnosis | Diagnosed) -> Diagnosed:
         return result
     names = [result.conditions[key] for key in ("model", "data set") if key in result.conditions]
     return Diagnosed(result, title=", ".join(names))
+
+
+def answered(
+    step: str, found: Diagnosis, dataset: Dataset, model: str, files: Mapping[str, str] | None = None
+) -> Diagnosed:
+    """What a step of the diagnosis found, as the answer to what that step asks.
+
+    Args:
+        step: of QUESTIONS; any other asks for what is missing, and the verdict answers it.
+        model: its name.
+    """
+    question, answer = QUESTIONS.get(step, ("Which effect is missing?", lambda _: ""))
+    return Diagnosed(found, dataset, f"{model} against {dataset.name}", question, answer(found), files or {})
 
 
 def text(result: Diagnosed) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -121,6 +121,15 @@ def learned_sentence(diagnosis: Diagnosis) -> str:
     first, *others = diagnosis.laws
     rest = [f"{one.slot} {share_text(one.share)}" for one in others[:3]]
     return " ".join([law_sentence(first), *([f"Other places: {', '.join(rest)}."] if rest else [])])
+
+
+# A step of the diagnosis -> what it asks, and what answers that. All others ask which effect is missing.
+QUESTIONS: Mapping[str, tuple[str, Callable[[Diagnosis], str]]] = {
+    "compare": ("How far is the model from its measurements?", comparison_sentence),
+    "locate": ("Where is what missing?", learned_sentence),
+    "rank": ("What would each effect explain?", ranking_sentence),
+    "add": ("What do the effects mend?", added_sentence),
+}
 
 
 def _nowhere(diagnosis: Diagnosis) -> str:

@@ -1,27 +1,7 @@
 """Fitted parameters, shown."""
 
-from pysim.present.fit.answer import Fitted, data, files, text, whole
-from pysim.present.fit.figures import (
-    figures,
-    fit_correlation_figure,
-    fit_harmonics_figure,
-    fit_parameters_figure,
-    fit_record_figure,
-)
-from pysim.present.fit.page import page
+from pysim.present.fit.answer import Fitted, data, files, page, text, whole
+from pysim.present.fit.figures import figures
 from pysim.types import Fit
 
-__all__ = [
-    "Fit",
-    "Fitted",
-    "data",
-    "figures",
-    "files",
-    "fit_correlation_figure",
-    "fit_harmonics_figure",
-    "fit_parameters_figure",
-    "fit_record_figure",
-    "page",
-    "text",
-    "whole",
-]
+__all__ = ["Fit", "Fitted", "data", "figures", "files", "page", "text", "whole"]

@@ -14,7 +14,7 @@ import numpy as np
 from pysim.present.page import heading, items, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
-from pysim.present.rig.looks import BAR, PULSES, REFERENCE, TRUE, within
+from pysim.present.rig import BAR, PULSES, REFERENCE, TRUE, within
 from pysim.present.style import BAND, COLOURS, MEASURED, TEXT, legend_above, panels
 from pysim.rig import HeaveFigures, HeaveTest, standstills
 from pysim.rig.heave_test import slow_part

@@ -14,7 +14,7 @@ import numpy as np
 from pysim.present.page import heading, items, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
-from pysim.present.rig.looks import BAR, PULSES, REFERENCE, TRUE, within
+from pysim.present.rig import BAR, PULSES, REFERENCE, TRUE, within
 from pysim.present.style import BAND, COLOURS, LIMIT, TEXT, legend_above, new_figure, quiet
 from pysim.rig import StepFigures, StepTest
 from pysim.types import Record

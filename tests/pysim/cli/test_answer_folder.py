@@ -5,7 +5,8 @@ from pathlib import Path
 
 import pytest
 
-from pysim.cli.outputs import MARKER, answer_folder, prepare_answer
+from pysim.cli.outputs import answer_folder, prepare_answer
+from pysim.present.report import MARKER
 from pysim.types import BadInput
 
 

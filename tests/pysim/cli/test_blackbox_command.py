@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from pysim.cli import main
-from pysim.cli.outputs import MARKER
+from pysim.present.report import MARKER
 from pysim.thesis import write_dataset
 from tests.pysim.cli.ran import refused
 

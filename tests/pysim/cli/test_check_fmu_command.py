@@ -10,8 +10,8 @@ import pytest
 
 from pysim import fmu_check
 from pysim.cli import main
-from pysim.cli.outputs import MARKER
 from pysim.fmu_check import DOUBTFUL, FAILS, HOLDS, check_fmu
+from pysim.present.report import MARKER
 from tests.planted import planted
 from tests.pysim.cli.ran import refused
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli.outputs import MARKER
+from pysim.present.report import MARKER
 from pysim.types import MeasuredRecord, Record
 from tests.pysim.cli.ran import refused
 from tests.pysim.identify.chirp.chirps import log as chirp_log

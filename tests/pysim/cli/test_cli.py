@@ -17,7 +17,7 @@ from pysim.cli import main
 from pysim.cli.command import Command
 from pysim.cli.main import argument_parser, registry
 from pysim.cli.options import read_parameters
-from pysim.cli.outputs import MARKER
+from pysim.present.report import MARKER
 from pysim.types import BadInput, Experiment, Record, SimulationError
 from tests.pysim import comparisons as linear
 from tests.pysim.cli.ran import refused

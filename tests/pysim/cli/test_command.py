@@ -9,12 +9,12 @@ from typing import Any
 
 import pytest
 
-from pysim.cli import main, outputs
+from pysim.cli import main
 from pysim.cli.command import Command, Given
 from pysim.cli.option import Role, argument, choice, file, number, switch, text
 from pysim.cli.options import JSON, OUTPUT
 from pysim.present import Drawing, Picture
-from pysim.present.report import VIEWS
+from pysim.present.report import MARKER, VIEWS
 from pysim.present.style import new_figure
 
 SEEN: list[Given] = []
@@ -101,7 +101,7 @@ def test_all_that_was_asked_for_is_written_and_replaced_whole(tmp_path: Path) ->
         assert main([*words, "--level", level]) == 0
         assert json.loads(Path("out/n.json").read_text()) == {"level": float(level)}
         assert Path("out/level.txt").read_text() == f"{level}.0"
-    expected = {"n.json", "level.txt", "square.png", "square.svg", "report.html", outputs.MARKER}
+    expected = {"n.json", "level.txt", "square.png", "square.svg", "report.html", MARKER}
     assert {path.name for path in Path("out").iterdir()} == expected
     assert Path("out/report.html").read_text().startswith("1 ")
 

@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli.outputs import MARKER
 from pysim.io import read_dataset, write_dataset
+from pysim.present.report import MARKER
 from pysim.types import Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
 from tests.pysim.cli.ran import refused
 

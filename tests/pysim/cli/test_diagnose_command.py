@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli.outputs import MARKER
 from pysim.cli.steps import read_parts
 from pysim.io import read_model, write_dataset
+from pysim.present.report import MARKER
 from pysim.types import NoteCode, Record
 from pysim.workflow import SessionParts
 from tests.pysim.cli.ran import Ran, parsed, refused

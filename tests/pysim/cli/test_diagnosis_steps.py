@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli.outputs import CHECKPOINT, MARKER
 from pysim.diagnosis import error_history
 from pysim.identify.greybox.comparison import Compared
 from pysim.io import read_model, write_dataset
 from pysim.present import diagnosis
 from pysim.present.progress import Unfolding
+from pysim.present.report import CHECKPOINT, MARKER
 from pysim.types import FrequencyResponse, MeasuredRecord, Note, NoteCode, ProgressEvent, SineTest
 from tests.pysim.cli.ran import Ran, refused
 from tests.pysim.diagnosis_answer import found_offset

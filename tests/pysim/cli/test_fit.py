@@ -11,9 +11,9 @@ import pytest
 from fmu_build.cli import main as build_command
 from pysim.cli import main
 from pysim.cli.commands import fit as fit_command
-from pysim.cli.outputs import MARKER
 from pysim.identify.greybox import Profile, Tried
 from pysim.io import read_model, write_dataset
+from pysim.present.report import MARKER
 from tests.pysim.cli.ran import Ran, refused
 from tests.pysim.identify.greybox import measurements as m
 

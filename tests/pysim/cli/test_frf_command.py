@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli.outputs import MARKER
+from pysim.present.report import MARKER
 from tests.pysim.cli.ran import refused
 from tests.pysim.identify.frf.systems import log, response, white
 

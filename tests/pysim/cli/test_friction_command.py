@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli.outputs import MARKER
 from pysim.io import write_dataset
+from pysim.present.report import MARKER
 from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Record
 from tests.pysim.cli.ran import refused
 from tests.pysim.identify.friction.shafts import INERTIA, TRUTH, measured, simulated

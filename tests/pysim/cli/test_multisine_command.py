@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli.outputs import MARKER
 from pysim.io import write_record
+from pysim.present.report import MARKER
 from pysim.types import Record
 from tests.pysim.identify.multisine.systems import ODD, PERIOD, N, gain, multisine, through, with_free_lines
 

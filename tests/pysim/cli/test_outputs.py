@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from pysim.cli import main
-from pysim.cli.outputs import JSON, prepare_file, prepare_folder
+from pysim.cli.outputs import prepare_file, prepare_folder
 from pysim.types import BadInput
 
 TOML = """[dataset]
@@ -105,7 +105,7 @@ def test_a_suffix_of_another_form_is_refused(
 
 def test_beside_the_data_set_all_is_well(data: Path, tmp_path: Path) -> None:
     assert prepare_folder(tmp_path / "d-report", read=[data]).is_dir()  # begins alike
-    assert prepare_file(tmp_path / "n.json", "--json", JSON, read=[data]) == tmp_path / "n.json"
+    assert prepare_file(tmp_path / "n.json", "--json", (".json",), read=[data]) == tmp_path / "n.json"
     device = Path("/dev/null")
     if device.exists():
-        assert prepare_file(device, "--json", JSON, read=[data]) == device
+        assert prepare_file(device, "--json", (".json",), read=[data]) == device

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from pysim.cli import main
-from pysim.cli.outputs import MARKER
 from pysim.excitation import Chirp, Excitation, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
 from pysim.excitation import SteppedSineCommand as Sine
 from pysim.io import read_signal
+from pysim.present.report import MARKER
 from tests.pysim.cli.ran import refused
 
 SEA = PiersonMoskowitz(100.0, 1.0)

@@ -4,7 +4,7 @@ from pathlib import Path
 import pytest
 
 from pysim.cli import main
-from pysim.cli.outputs import MARKER
+from pysim.present.report import MARKER
 from tests.pysim.cli.ran import refused
 
 

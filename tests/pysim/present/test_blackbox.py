@@ -9,7 +9,8 @@ from matplotlib.figure import Figure
 
 from pysim.identify.blackbox import FittedResponse, Structure, fit_dataset
 from pysim.present import Drawing
-from pysim.present.blackbox import TransferFunctions, blackbox_figure, data, figures, page, text
+from pysim.present.blackbox import TransferFunctions, data, figures, page, text
+from pysim.present.blackbox.figure import blackbox_figure
 from pysim.types import Dataset
 from tests.pysim.identify.blackbox.logs import F, dataset, log, table
 

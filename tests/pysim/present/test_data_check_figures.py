@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.present.data_check import coverage_figure, sine_logs_figure, time_logs_figure
+from pysim.present.data_check.figures import coverage_figure, sine_logs_figure, time_logs_figure
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
 from tests.pysim.present.looking import numbers
 

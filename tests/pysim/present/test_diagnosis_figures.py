@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.present.diagnosis import (
+from pysim.present.diagnosis.figures import (
     candidates_figure,
     error_figure,
     map_figure,

@@ -3,7 +3,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.present.fit import (
+from pysim.present.fit.figures import (
     fit_correlation_figure,
     fit_harmonics_figure,
     fit_parameters_figure,

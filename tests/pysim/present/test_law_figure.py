@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.present.diagnosis import law_figure
+from pysim.present.diagnosis.figures import law_figure
 from pysim.types import BadInput, LearnedLaw
 
 V = np.linspace(-0.3, 0.3, 61)

@@ -3,11 +3,9 @@
 from dataclasses import replace
 
 import numpy as np
-import pytest
 
 from pysim.identify.multisine import DropPeriods, fast_approximation, pooled, robust_approximation
 from pysim.present.multisine import multisine_figure
-from pysim.types import BadInput
 from tests.pysim.identify.multisine.systems import ODD, measure, with_free_lines
 
 FREE = with_free_lines(ODD, seed=11)
@@ -16,7 +14,7 @@ FAST = fast_approximation(DATA, transient=DropPeriods(0))
 
 
 def test_curves_are_the_levels_in_decibels() -> None:
-    figure = multisine_figure([FAST], ["10 %"])
+    figure = multisine_figure(FAST, "10 %")
     top, bottom = figure.axes
     noise, distortion, even, even_mean, odd, _, gain = top.get_lines()
     assert FAST.noise is not None
@@ -45,29 +43,23 @@ def test_curves_are_the_levels_in_decibels() -> None:
 def test_what_the_noise_hides_is_a_gap() -> None:
     linear = fast_approximation(measure(FREE, realisations=1, periods=4, noise=0.01, seed=1))
     assert linear.even is not None
-    drawn = np.asarray(multisine_figure([linear], [""]).axes[0].get_lines()[2].get_ydata(), dtype=float)
+    drawn = np.asarray(multisine_figure(linear, "").axes[0].get_lines()[2].get_ydata(), dtype=float)
     np.testing.assert_array_equal(np.isnan(drawn), linear.even.variance <= 0)
     assert np.isnan(drawn).any()
 
 
-def test_columns_share_their_scale_and_one_period_has_one_level() -> None:
+def test_one_period_has_one_level() -> None:
     single = robust_approximation(measure(FREE, realisations=3, periods=1, noise=0.01, seed=2))
-    figure = multisine_figure([FAST, single], ["a", "b"])
-    assert [axes.get_title() for axes in figure.axes[:2]] == ["a", "b"]
-    assert figure.axes[0].get_ylim() == figure.axes[1].get_ylim()
-    assert len(figure.axes[1].get_lines()) == 2
+    top = multisine_figure(single, "a").axes[0]
+    assert top.get_title() == "a"
+    assert len(top.get_lines()) == 2
 
 
 def test_a_line_that_knows_nothing_does_not_widen_the_axes() -> None:
     variance = FAST.variance.copy()
     variance[-1] = 1e6
-    low, high = multisine_figure([replace(FAST, variance=variance)], [""]).axes[1].get_ylim()
+    low, high = multisine_figure(replace(FAST, variance=variance), "").axes[1].get_ylim()
     phase = np.degrees(np.unwrap(np.angle(FAST.gain)))[:-1]
     assert low < phase.min()
     assert high > phase.max()
     assert high - low < np.ptp(phase) + 2 * 45 + 10
-
-
-def test_refuses_nothing_to_draw() -> None:
-    with pytest.raises(BadInput, match="a title for each"):
-        multisine_figure([FAST], [])

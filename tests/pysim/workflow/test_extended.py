@@ -15,7 +15,7 @@ from fmu_build.cli import main as fmu_build_main
 from pysim.cli.options import parameters_of
 from pysim.diagnosis import add
 from pysim.io import read_model
-from pysim.present.diagnosis import relative_files
+from pysim.present.diagnosis.answer import relative_files
 from pysim.types import Diagnosis, Effect
 from pysim.workflow import SessionParts, Variants, model_of, session_of, session_parts, write_extended
 from pysim.workflow.extended import extended_name
