@@ -149,7 +149,7 @@ def read_job(folder: Path) -> Job | None:
         work = Work(head["work"]["name"], head["work"]["title"], words, effects)
         job = Job(work, head["state"], head["begun"], head["ended"], head["fingerprint"], message=head["message"])
         process = head.get("process")
-        job = replace(job, process=process and Started(int(process["pid"]), str(process["began"])))
+        job = replace(job, process=process and Started(int(process["pid"]), float(process["began"])))
     except (OSError, ValueError, KeyError, TypeError):
         return None
     return _with_events(job, folder)
