@@ -126,19 +126,45 @@ class Desk:
 
     async def example(self, name: str) -> None:
         """Take an example into the project, read it and hold the model beside it; `trouble` says what fails."""
-        self.doing, self.trouble = f"Making the example {name}", ""
-        self.changed()
         try:
-            await asyncio.wrap_future(self.runner.worker.ask("example", name))
+            await self._do(f"Making the example {name}", "example", name)
         except (BadInput, Ended) as error:
             self.trouble = str(error) or "the example was not made; open it again"
+        await self.read()
+        if not self.trouble and not self.model_trouble:
+            self.start(self.work("compare"))
+
+    async def describe(self, columns: Sequence[Mapping[str, Any]], kind: str) -> None:
+        """Make the logs a data set; as they were dropped they are kept as an earlier one.
+
+        Args:
+            columns, kind: as `bare_logs.describe_logs` takes them.
+        Raises:
+            BadInput: work is running, or what has to be chosen otherwise.
+        """
+        self._free_to_change()
+        await self._do("Reading the logs", "describe", columns, kind)
+        await self.read_data()
+
+    async def _do(self, words: str, task: str, *given: Any) -> None:
+        """Let the worker put other data or models into the project."""
+        self.doing, self.trouble = words, ""
+        self.changed()
+        try:
+            await self._ask(task, *given)
         finally:
             self.doing = ""
             self.history.begin_anew()
             self.changed()
-        await self.read()
-        if not self.trouble and not self.model_trouble:
-            self.start(self.work("compare"))
+
+    async def _ask(self, task: str, *given: Any) -> Any:
+        """What the worker answers."""
+        return await asyncio.wrap_future(self.runner.worker.ask(task, *given))
+
+    @property
+    def check(self) -> DataCheck | None:
+        """What the data set holds; None where there is none that can be read."""
+        return self.loaded.check if self.loaded else None
 
     @property
     def sketches(self) -> dict[str, Any]:
@@ -209,10 +235,10 @@ class Desk:
         else:
             self.start(adding(self.project, added))
 
-    async def check(self) -> None:
+    async def check_with_model(self) -> None:
         """Look at the logs beside the model's answers: signs, units, and columns that are swapped."""
         self._free_to_change()
-        check = await asyncio.wrap_future(self.runner.worker.ask("checked"))
+        check = await self._ask("checked")
         if self.loaded is not None:
             self.loaded = replace(self.loaded, check=check)
             self.changed()
@@ -230,7 +256,7 @@ class Desk:
             raise BadInput(f"there is another law {name} already; give this one another name")
         file.parent.mkdir(exist_ok=True)
         write_file(file, content)
-        self.model = await asyncio.wrap_future(self.runner.worker.ask("model"))
+        self.model = await self._ask("model")
         self.add(name)
 
     def change(self, **settings: Any) -> None:
@@ -280,7 +306,7 @@ class Desk:
         self.changed()
 
     def _free_to_change(self) -> None:
-        if self.runner.running is not None:
+        if self.runner.running is not None or self.taking or self.doing:
             raise BadInput("wait until the running work has ended, or stop it")
 
     def choose(self, added: tuple[str, ...]) -> None:
@@ -375,7 +401,7 @@ class Desk:
         if self.runner.running is not None or self.model_busy:
             raise BadInput("wait until the running work has ended; then open the report again")
         try:
-            await asyncio.wrap_future(self.runner.worker.ask("report", name))
+            await self._ask("report", name)
         except Ended as error:
             raise BadInput("the report was not finished; open it again") from error
 

@@ -231,6 +231,13 @@ def button(words: str, action: Callable[[], Any], kind: str = "", *, off: str = 
     return element.on("click", lambda: action())
 
 
+def entry(label: str, value: object, put: Callable[[str], Any], props: str = "type=text") -> Element:
+    """A field; what is written there is handed over when it is left."""
+    field = ui.element("input").props(props)
+    field._props["aria-label"], field._props["value"] = label, value
+    return field.on("change", lambda event: put(str(event.args)), js_handler="(e) => emit(e.target.value)")
+
+
 def head(title: str, lead: str = "") -> None:
     """Of a page."""
     text("h1", title)

@@ -242,9 +242,9 @@ class Project:
         return self._told(place)
 
     def earlier_data(self) -> list[Path]:
-        """Data sets in whose place others were dropped, the last one first."""
-        found = (self.folder / "earlier").glob("data-*/dataset.toml")
-        return sorted((path.parent for path in found), key=lambda path: -int(path.name.rpartition("-")[2]))
+        """Data sets, or logs that were described later, in whose place others came; the last one first."""
+        found = [path for path in (self.folder / "earlier").glob("data-*") if path.name.removeprefix("data-").isdigit()]
+        return sorted(found, key=lambda path: -int(path.name.rpartition("-")[2]))
 
     def replace_models(self, paths: Sequence[Path]) -> str:
         """Take files and folders, each of another name, into `model`; those of the same names are kept as data are.

@@ -287,7 +287,7 @@ def _choose(project: Project, adopted: Adopted) -> None:
 
 def overlay_of(desk: Desk, of: str, record: int) -> Overlay | None:
     """A record of the data set (`of` is "data" or "prepared"), or beside the models of a result; None without one."""
-    check = desk.loaded.check if desk.loaded else None
+    check = desk.check
     if check is None or not 0 <= record < len(check.dataset.logs()):
         return None
     log = check.dataset.logs()[record]

@@ -9,6 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
+from pysim.app.bare_logs import describe_logs
 from pysim.app.followed import Followed
 from pysim.app.jobs import ANSWER, EVENTS, OUTPUT, RECORDS, REPORT, Work, laws_of, read_job
 from pysim.app.project import Project
@@ -76,6 +77,13 @@ class Tasks:
         settings, found = self._project.settings(), read_described(Path("data"), partly=True)
         data = Data(found.raw, found.raw, (), found.units, found.units, {}).after(*found.steps)
         return data.check(opened_model(settings.model, library=settings.libraries)).result
+
+    def describe(self, columns: Sequence[Mapping[str, Any]], kind: str) -> None:
+        """Make a data set of the logs that nobody has described yet."""
+        coming = self._project.uploads / "described"
+        shutil.rmtree(coming, ignore_errors=True)
+        describe_logs(self._project.data, columns, kind, coming)
+        self._project.replace_data(coming)
 
     def example(self, name: str) -> None:
         """Take the logs, the library and the model of an example into the project."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from functools import partial
 from typing import Any
 
@@ -12,7 +12,9 @@ from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.disk import disk_trouble
 from pysim.app.jobs import FAILED, STOPPED, Work
-from pysim.app.parts import box, button, note, say, text
+from pysim.app.parts import Chart, box, button, entry, note, say, text
+from pysim.app.records import MOST, Overlay
+from pysim.app.worker import Ended
 from pysim.types import BadInput
 
 
@@ -20,13 +22,25 @@ def attempt(action: Callable[[], object]) -> bool:
     """Do what a button says; what cannot be is said in a sentence."""
     try:
         action()
-    except BadInput as error:
-        say(str(error), bad=True)
-        return False
-    except OSError as error:
-        say(str(disk_trouble(error)), bad=True)
+    except (BadInput, OSError) as error:
+        _refused(error)
         return False
     return True
+
+
+async def attempted(work: Awaitable[object]) -> bool:
+    """The same, of what takes a while."""
+    try:
+        await work
+    except (BadInput, OSError, Ended) as error:
+        _refused(error)
+        return False
+    return True
+
+
+def _refused(error: Exception) -> None:
+    told = disk_trouble(error) if isinstance(error, OSError) else error
+    say(str(told) or "the process that did it broke down; press again", bad=True)
 
 
 def start(desk: Desk, work: Callable[[], Work], *, then: str = "") -> None:
@@ -41,8 +55,7 @@ def busy(desk: Desk) -> str:
         return f"{desk.runner.running.work.title} is running"
     if desk.doing:
         return desk.doing
-    check = desk.loaded.check if desk.loaded else None
-    if check is None or not check.records:
+    if desk.check is None or not desk.check.records:
         return "Drop a data set first"
     if desk.loaded is not None and desk.loaded.refused:
         return "Some logs were refused; mend them or leave them out on the page Data"
@@ -103,8 +116,6 @@ def segments(options: list[tuple[str, str]], chosen: str, pick: Callable[[str], 
 
 def amount(value: Any, put: Callable[[float | None], Any], label: str, *, signed: bool = False) -> None:
     """A number that may be left empty."""
-    field = ui.element("input").props(f"type=number step=any {'' if signed else 'min=0'}")
-    field._props["aria-label"], field._props["value"] = label, "" if value is None else value
 
     def changed(written: str) -> None:
         try:
@@ -112,4 +123,19 @@ def amount(value: Any, put: Callable[[float | None], Any], label: str, *, signed
         except ValueError:
             say(f"{label}: {written!r} is no number; write one, or leave it empty", bad=True)
 
-    field.on("change", lambda event: changed(str(event.args)), js_handler="(e) => emit(e.target.value)")
+    props = f"type=number step=any {'' if signed else 'min=0'}"
+    entry(label, "" if value is None else value, changed, props)
+
+
+def record_chart(
+    overlay: Overlay, of: str, number: int, label: str, height: int,
+    on_range: Callable[[tuple[float, float] | None], Any] | None = None,
+) -> None:  # fmt: skip
+    """A log over time, whose samples are fetched by window.
+
+    Args:
+        of, number: as the address /series takes them.
+    """
+    place, traces = f"/series?of={of}&record={number}", list(range(len(overlay.lines)))
+    series = {"url": place, "traces": traces, "span": overlay.span, "most": MOST}
+    Chart(overlay.figure(), label, height=height, series=series, on_range=on_range)

@@ -12,10 +12,10 @@ from nicegui import background_tasks, ui
 from pysim.app.description import change_description, hold_out, leave_out, read_description
 from pysim.app.desk import Desk, Loaded
 from pysim.app.pages.bare import describe_form
-from pysim.app.pages.common import amount, attempt, busy, ended, start
+from pysim.app.pages.common import amount, attempt, busy, ended, record_chart, start
 from pysim.app.pages.start import examples, projects
-from pysim.app.parts import Chart, Choice, Drop, Table, box, button, card, head, live, note, quantity, say, text
-from pysim.app.records import MOST, measured_overlay
+from pysim.app.parts import Choice, Drop, Table, box, button, card, head, live, note, quantity, say, text
+from pysim.app.records import measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted
 from pysim.present.data_check import sentence
@@ -33,7 +33,8 @@ def data_page(desk: Desk) -> None:
     live(lambda: desk.version, lambda: _ready(desk), "gap")
     Drop(
         "Drop a data set here",
-        "A folder, a .zip or single logs (text, CSV, LabVIEW, Parquet). An .fmu or a Modelica library is the model.",
+        "A folder, a .zip or single logs: text, CSV, LabVIEW, Excel, MATLAB, Parquet. "
+        "The model is an .fmu or a Modelica library.",
         limits=desk.limits, on_text=lambda words, good: say(words, bad=not good),
     )  # fmt: skip
     live(lambda: desk.version, lambda: _model(desk), "gap")
@@ -191,7 +192,7 @@ def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[s
 
 
 def _records(desk: Desk, preview: dict[str, int]) -> None:
-    check = desk.loaded.check if desk.loaded else None
+    check = desk.check
     if check is None or not check.records:
         return
     columns = [("record", "words"), (NOT_FITTED, "tick"), ("kind", "words"), ("rows", "number"), ("s", "number")]
@@ -219,12 +220,8 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     if number is not None:
         log = check.dataset.logs()[number]
         overlay = measured_overlay(log)
-        series = {"url": f"/series?of=data&record={number}", "traces": list(range(len(overlay.lines)))}
         with card(log.source):
-            Chart(
-                overlay.figure(), f"{log.source} over time", height=110 + 130 * len(overlay.names),
-                series={**series, "span": overlay.span, "most": MOST},
-            )  # fmt: skip
+            record_chart(overlay, "data", number, f"{log.source} over time", 110 + 130 * len(overlay.names))
 
 
 def _earlier(desk: Desk) -> None:
@@ -237,8 +234,8 @@ def _earlier(desk: Desk) -> None:
             with box("row"):
                 off = "Wait until the running work has ended" if desk.runner.running else ""
                 button(f"Bring back {folder.name}", partial(_bring_back, desk, folder), "small", off=off)
-                logs = sum(path.is_file() for path in folder.rglob("*")) - 1
-                text("span", f"{counted(logs, 'file')} beside its dataset.toml", "small")
+                found = [path.name for path in folder.rglob("*") if path.is_file()]
+                text("span", counted(len(found), "file") + ", described" * ("dataset.toml" in found), "small")
 
 
 def _bring_back(desk: Desk, folder: Path) -> None:

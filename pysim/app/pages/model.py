@@ -29,8 +29,7 @@ def model_page(desk: Desk) -> None:
 
 
 def _logs(desk: Desk) -> tuple[str, ...]:
-    check = desk.loaded.check if desk.loaded else None
-    return tuple(log.source for log in check.dataset.logs()) if check else ()
+    return tuple(log.source for log in desk.check.dataset.logs()) if desk.check else ()
 
 
 class _Follows:

@@ -47,13 +47,14 @@ def test_single_logs_are_described_on_the_page(shown: Shown, show: Show, logs: l
     tab.see("3 records, 1 not fitted")
     found = tomllib.loads((folder / "data/dataset.toml").read_text())
     assert found["signals"] == {
-        "F": {"role": "input", "unit": "N", "variable": "F"},
-        "x": {"role": "output", "unit": "mm", "variable": "x", "noise": 0.5},
+        "F": {"role": "input", "unit": "N", "quantity": "F"},
+        "x": {"role": "output", "unit": "mm", "quantity": "x", "noise": 0.5},
     }  # fmt: skip
     assert [(r["file"], r["use"]) for r in found["records"]] == [
-        ("run1.csv", "fit"), ("run2.csv", "fit"), ("run3.csv", "validate"),
+        ("run1.txt", "fit"), ("run2.txt", "fit"), ("run3.txt", "validate"),
     ]  # fmt: skip
-    assert found["records"][0]["columns"] == ["time", "F", "x", "-"]
+    assert found["records"][0]["columns"] == ["time", "F", "x"]
+    assert (folder / "earlier/data-1/run1.csv").read_bytes() == logs[0].read_bytes()  # as it was dropped
     tab.see("Ready to compare")
     assert tab.errors == []
 

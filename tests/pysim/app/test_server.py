@@ -34,7 +34,7 @@ def test_a_record_whose_result_was_removed_meanwhile_is_none(tmp_path: Path) -> 
     job = Job(Work("diagnose", "Find", ("diagnose",)), DONE, 1.0, 2.0, "")
     answer = Answer(job, tmp_path, present.data(found_offset()), read_stages(tmp_path / "a.npz"))
     check, answers = SimpleNamespace(dataset=dataset()), SimpleNamespace(all=(answer,))
-    desk: Any = SimpleNamespace(loaded=SimpleNamespace(check=check), answers=answers)
+    desk: Any = SimpleNamespace(check=check, answers=answers)
     overlay = overlay_of(desk, "diagnose", _WAVE)
     assert overlay is not None
     assert overlay.names == ("x",)
@@ -62,7 +62,7 @@ def test_of_two_records_of_one_file_the_one_that_was_asked_for_is_given(tmp_path
     job = Job(Work("diagnose", "Find", ("diagnose",)), DONE, 1.0, 2.0, "")
     answer = Answer(job, tmp_path, present.data(found_offset()), read_stages(tmp_path / "a.npz"))
     check = SimpleNamespace(dataset=replace(dataset(), records=tuple(logs)))
-    desk: Any = SimpleNamespace(loaded=SimpleNamespace(check=check), answers=SimpleNamespace(all=(answer,)))
+    desk: Any = SimpleNamespace(check=check, answers=SimpleNamespace(all=(answer,)))
     for k, name in names.items():
         overlay = overlay_of(desk, "diagnose", k)
         assert overlay is not None
