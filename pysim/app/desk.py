@@ -12,7 +12,6 @@ from typing import Any
 from nicegui import run
 
 from pysim.app.answers import Answer, Answers
-from pysim.app.disk import remove
 from pysim.app.history import History
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
 from pysim.app.project import Project
@@ -212,6 +211,9 @@ class Desk:
             raise BadInput("a drop is being taken over; try again in a moment")
         self.last = None
         self.runner.start(work)
+        deleted = self.project.settings().deleted
+        if work.name in deleted:  # it is made anew
+            self.project.change(deleted=tuple(one for one in deleted if one != work.name))
         self.changed()
 
     def work(self, command: str) -> Work:
@@ -315,15 +317,21 @@ class Desk:
         self.changed()
 
     def delete(self, answer: Answer) -> None:
-        """Remove a result with all its files.
+        """Show a result no more; undo brings it back, for as long as this server runs.
 
         Raises:
-            BadInput: work is running, or another program has a file of it.
+            BadInput: work is running.
         """
         self._free_to_change()
-        remove(answer.folder, self.project.uploads)
-        if self.project.settings().added == answer.added:
-            self.project.change(added=())
+        now = self.project.settings()
+        added = () if now.added == answer.added else now.added
+        self.project.change(deleted=(*now.deleted, answer.folder.name), added=added)
+        self.changed()
+
+    def name(self, added: Sequence[str], name: str) -> None:
+        """Call the model with some effects otherwise; "" takes its name from it."""
+        names = {**self.project.settings().named, "+".join(added): " ".join(name.split())}
+        self.project.change(names=tuple(f"{key}={one}" for key, one in names.items() if one))
         self.changed()
 
     def undo(self) -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Awaitable, Callable
 from functools import partial
 from typing import Any
+from urllib.parse import quote
 
 from nicegui import ui
 
@@ -52,18 +53,18 @@ def start(desk: Desk, work: Callable[[], Work], *, then: str = "") -> None:
 def busy(desk: Desk) -> str:
     """Why nothing can be started now; "" where something can."""
     if desk.runner.running is not None:
-        return f"{desk.runner.running.work.title} is running"
+        return f"Wait until {desk.runner.running.work.title} has ended"
     if desk.doing:
         return desk.doing
     if desk.check is None or not desk.check.records:
         return "Drop a data set first"
     if desk.loaded is not None and desk.loaded.refused:
-        return "Some logs were refused; mend them or leave them out on the page Data"
+        return "Mend the logs that were refused, or leave them out, on the page Data"
     if desk.loaded is not None and desk.loaded.empty_cells:
-        return "Some cells are empty; fill them, or cut them out, on the page Prepare"
+        return "Fill the cells that are empty, or cut them out, on the page Prepare"
     if not desk.project.settings().model:
         return "Name a model first"
-    return "The model is being built" if desk.model_busy else desk.model_trouble and "The model cannot be used"
+    return "Wait until the model is built" if desk.model_busy else desk.model_trouble and "Name another model"
 
 
 def ended(desk: Desk) -> None:
@@ -96,6 +97,12 @@ def doubts(answer: Answer) -> None:
             text("b", "Do not believe this fit")
             for line in dict.fromkeys(map(str, found)):
                 text("p", line)
+
+
+def played(answer: Answer) -> None:
+    """What a bench plays for the next test, to take away."""
+    link = text("a", "Download its commands as CSV", "plain")
+    link._props["href"], link._props["download"] = f"/commands/{quote(answer.folder.name)}", "next_test.zip"
 
 
 def nothing(title: str, words: str) -> None:

@@ -22,6 +22,7 @@ from pysim.present.data_check import sentence
 from pysim.present.notes import NOT_FITTED
 from pysim.types import UNITS, BadInput, Record
 
+_NUMBERS = ("factor", "offset", "noise", "resolution")  # of a signal
 MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
 
 
@@ -47,7 +48,10 @@ def data_page(desk: Desk) -> None:
 def _ready(desk: Desk) -> None:
     """What to do next."""
     ended(desk)
-    if busy(desk) and desk.runner.running is None:
+    why = busy(desk)
+    if why and desk.runner.running is None:
+        if not desk.project.empty:
+            note(f"Next: {why[0].lower()}{why[1:]}.")
         return
     with box("card row end"):
         with box("tight"):
@@ -160,11 +164,12 @@ def _signals(desk: Desk, check: DataCheck) -> None:
     with card("Signals"):
         text(
             "p",
-            "Noise is one standard deviation in the unit of the files; left empty, it is seen in the logs.",
+            "Signal = factor × column + offset, in this unit: a factor of −1 turns a sign, volts become bar. "
+            "Noise is one standard deviation; left empty, it is estimated from the logs.",
             "small",
         )
-        with box("form").style("grid-template-columns: 1.1fr 0.7fr 0.7fr 1.5fr 0.8fr 0.8fr"):
-            for words in ("signal", "role", "unit in the files", "variable of the model", "noise", "resolution"):
+        with box("form").style("grid-template-columns: 1.1fr 0.6fr 0.7fr 1.5fr repeat(4, 0.8fr)"):
+            for words in ("signal", "role", "unit", "variable of the model", *_NUMBERS):
                 text("span", words, "head")
             for name, section in content["signals"].items():
                 _signal(desk, name, section, variables)
@@ -187,8 +192,8 @@ def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[s
         Choice(f"variable for {name}", options, variable, lambda value: put("variable", value))
     else:
         text("span", variable)
-    for key in ("noise", "resolution"):
-        amount(section.get(key), partial(put, key), f"{key} of {name}")
+    for key in _NUMBERS:
+        amount(section.get(key), partial(put, key), f"{key} of {name}", signed=key in ("factor", "offset"))
 
 
 def _records(desk: Desk, preview: dict[str, int]) -> None:
