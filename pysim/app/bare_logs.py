@@ -101,7 +101,7 @@ def describe_logs(folder: Path, columns: Sequence[Mapping[str, Any]], kind: str,
     except BadInput as error:
         raise BadInput(str(error).replace(f"{folder}{os.sep}", "")) from error
     content = read_description(into / "dataset.toml")
-    content["dataset"] |= {"name": folder.name, "description": "dropped as logs"}
+    content["dataset"]["description"] = "dropped as logs"
     if kind == SINE:
         content["records"] = _sines(into, content)
     for record in content["records"]:

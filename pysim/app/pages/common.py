@@ -57,7 +57,8 @@ def busy(desk: Desk) -> str:
     if desk.doing:
         return desk.doing
     if desk.check is None or not desk.check.records:
-        return "Drop a data set first"
+        bare = desk.project.data.is_dir() and not desk.project.description.is_file()
+        return "Say what the columns of the logs are, on the page Data" if bare else "Drop a data set on the page Data"
     if desk.loaded is not None and desk.loaded.refused:
         return "Mend the logs that were refused, or leave them out, on the page Data"
     if desk.loaded is not None and desk.loaded.empty_cells:
