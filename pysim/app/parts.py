@@ -265,10 +265,16 @@ def say(words: str, *, bad: bool = False) -> None:
     ui.notify(words, position="bottom-left", multi_line=True, **kind)  # type: ignore[arg-type]
 
 
-def live(key: Callable[[], object], build: Callable[[], Any], kind: str = "") -> Element:
-    """A part that is built anew whenever its key changes, in every tab."""
+def live(
+    key: Callable[[], object], build: Callable[[], Any], kind: str = "", known: list[object] | None = None
+) -> Element:
+    """A part that is built anew whenever its key changes, in every tab.
+
+    Args:
+        known: holds the key of what is shown, for a part that changes itself.
+    """
     place = box(kind) if kind else ui.element("div")
-    known: list[object] = []
+    known = [] if known is None else known
 
     def look() -> None:
         now = key()

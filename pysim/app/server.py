@@ -39,13 +39,7 @@ _BROKE_OFF = "the drop broke off, or another one has begun since; drop it again"
 
 
 def serve(
-    folder: Path,
-    *,
-    host: str = "127.0.0.1",
-    port: int = 0,
-    show: bool = True,
-    limits: Limits,
-    limit_s: float = 3600.0,
+    folder: Path, *, host: str = "127.0.0.1", port: int = 0, show: bool = True, limits: Limits, limit_s: float = 3600.0
 ) -> None:
     """Show a project until the process is ended.
 

@@ -55,10 +55,7 @@ def _answer(desk: Desk) -> Answer | None:
 
 def _top(desk: Desk) -> None:
     answer = _answer(desk)
-    head(
-        "Measured and simulated",
-        "Every log beside the model; residuals in standard deviations of the noise.",
-    )
+    head("Measured and simulated", "Every log beside the model; residuals in standard deviations of the noise.")
     ended(desk)
     if answer is not None:
         doubts(answer)
@@ -88,11 +85,7 @@ def _maps(desk: Desk, view: _View) -> None:
         with box("row end"):
             text("h2", "Where the error is")
             segments([(key, words) for key, words, _ in keys], chosen[0], lambda key: _set(view, model=key), "Model")
-        text(
-            "p",
-            "Residual in standard deviations of the noise. Click a cell to open its record.",
-            "small",
-        )
+        text("p", "Residual in standard deviations of the noise. Click a cell to open its record.", "small")
         for k, one in enumerate(error_maps(chosen[2], check.dataset)):
             figure = map_chart(one.rows, one.columns, one.values, one.title, scale=not k)
             label = f"Map of the error: {len(one.rows)} rows, {len(one.columns)} columns"

@@ -22,6 +22,10 @@ from pysim.present.data_check import sentence
 from pysim.present.notes import NOT_FITTED
 from pysim.types import UNITS, BadInput, Record
 
+_NO_SLOTS = (
+    "The class has no slots, so the page can fit it and show where it fails, but not add what is missing. A slot is a "
+    "part that is replaceable and whose filling gives 0; docs/tutorials/own_model.md shows one."
+)
 _NUMBERS = ("factor", "offset", "noise", "resolution")  # of a signal
 MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
 
@@ -29,6 +33,7 @@ MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.Locked
 def data_page(desk: Desk) -> None:
     """Data and model."""
     preview: dict[str, int] = {}
+    known: list[object] = []
     head("Data and model", "Drop what the bench has logged, name the model, and look at what was read.")
     live(lambda: (desk.project.empty, desk.doing), lambda: examples(desk) if desk.project.empty else None, "gap")
     live(lambda: desk.version, lambda: _ready(desk), "gap")
@@ -40,6 +45,7 @@ def data_page(desk: Desk) -> None:
     )  # fmt: skip
     live(lambda: desk.version, lambda: _model(desk), "gap")
     live(lambda: desk.version, lambda: _data(desk), "gap")
+    live(lambda: _described(desk), lambda: _signals(desk, known), "gap", known)
     live(lambda: (desk.version, preview.get("record")), lambda: _records(desk, preview), "gap")
     live(lambda: desk.version, lambda: _earlier(desk), "gap")
     live(lambda: desk.version, lambda: projects(desk) if desk.project.empty else None, "gap")
@@ -74,8 +80,9 @@ def _model(desk: Desk) -> None:
     with card("Model"):
         with box("row"):
             names = list(dict.fromkeys([*MODELS, *([settings.model] if settings.model else [])]))
+            own = [Path(one).stem for one in settings.libraries]  # a class of that name, or a package of classes
             field = (
-                ui.input(value=settings.model, autocomplete=names)
+                ui.input(value=settings.model or next(iter(own), ""), autocomplete=[*own, *names])
                 .props("dense outlined")
                 .style("width: 430px; max-width: 100%")
             )
@@ -99,8 +106,10 @@ def _model(desk: Desk) -> None:
                     told, ("state", "parameter", "slot", "effect"), ("", " with bounds", "", " that fit"), strict=True
                 ):
                     text("span", f"{counted(count, word)}{more}", "chip")
-            if not info["slots"]:
+            if info["structure"] is None:
                 note("Its Modelica class is not at hand, so no effect can be added; drop its library above.")
+            elif not info["slots"]:
+                note(_NO_SLOTS)
 
 
 def _use(desk: Desk, name: str) -> None:
@@ -120,7 +129,6 @@ def _data(desk: Desk) -> None:
         describe_form(desk)
     else:
         _refused(desk, loaded)
-        _signals(desk, loaded.check)
 
 
 def _refused(desk: Desk, loaded: Loaded) -> None:
@@ -138,8 +146,8 @@ def _refused(desk: Desk, loaded: Loaded) -> None:
             text("span", "or mend them and drop the folder again", "small")
 
 
-def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = False) -> None:
-    """Edit the description; what is refused is said, and nothing is changed.
+def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = False) -> bool:
+    """Edit the description; what is refused is said, and nothing is changed; whether it was done.
 
     Args:
         safe: whether the edit cannot make it one that is refused, so that nothing has to be read to know.
@@ -153,12 +161,26 @@ def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = Fa
         change_description(desk.project.description, content, read=not safe)
         desk.project.change(added=())
 
-    attempt(change)
+    done = attempt(change)
     background_tasks.create(desk.read_data())
+    return done
 
 
-def _signals(desk: Desk, check: DataCheck) -> None:
-    """Which column is which variable of the model, its unit in the files, and its noise."""
+def _described(desk: Desk) -> tuple[object, ...]:
+    """What tells that signals are to be shown anew."""
+    path = desk.project.description
+    return desk.check is None, desk.model is None, path.stat().st_mtime_ns if path.is_file() else 0
+
+
+def _signals(desk: Desk, known: list[object]) -> None:
+    """Which column is which variable of the model, its unit in the files, and its noise.
+
+    Args:
+        known: what is shown; a tab that changes a field shows it already, and what is typed in the next one stays.
+    """
+    check = desk.check
+    if check is None:
+        return
     content = read_description(desk.project.description)
     variables = [] if desk.model is None else [str(v[0]) for v in desk.model["variables"]]
     with card("Signals"):
@@ -172,16 +194,17 @@ def _signals(desk: Desk, check: DataCheck) -> None:
             for words in ("signal", "role", "unit", "variable of the model", *_NUMBERS):
                 text("span", words, "head")
             for name, section in content["signals"].items():
-                _signal(desk, name, section, variables)
+                _signal(desk, name, section, variables, known)
     if desk.model is not None:
         for signal in check.dataset.signals:
             if variables and signal.variable not in variables:
                 note(f"The model has no variable {signal.variable}; choose another one for {signal.name}.", "bad")
 
 
-def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[str]) -> None:
+def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[str], known: list[object]) -> None:
     def put(key: str, value: Any) -> None:
-        change(desk, lambda content: content["signals"][name].update({key: value}))
+        done = change(desk, lambda content: content["signals"][name].update({key: value}))
+        known[:] = [_described(desk)] if done else []
 
     text("b", name)
     text("span", str(section.get("role", "")))
@@ -211,11 +234,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     held = sum(record.use != "fit" for record in check.records)
     read = [record.source for record in check.records]
     with card(f"{counted(len(check.records), 'record')}, {held} {NOT_FITTED}"):
-        text(
-            "p",
-            f"What is {NOT_FITTED} shows how well the model predicts. Click a row to see it.",
-            "small",
-        )
+        text("p", f"What is {NOT_FITTED} shows how well the model predicts. Click a row to see it.", "small")
         Table(
             "Records", columns, [_row(record) for record in check.records], height="360px",
             on_row=lambda k: preview.update(record=k), picked=preview.get("record", -1),

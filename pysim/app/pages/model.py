@@ -96,7 +96,7 @@ class _Follows:
         fitted = settings.free or (*suggested(self._desk), *settings.ranges)
         written = replace(settings, free=()).ranges
         rows = []
-        for one in (self._desk.model or {})["parameters"]:
+        for one in (self._desk.model or {}).get("parameters", []):  # none while it is built anew
             if one["start"] is not None:
                 low, high = written.get(one["name"], (one["min"], one["max"]))
                 own = {"value": set_.get(one["name"], one["start"]), "fitted": one["name"] in fitted}

@@ -40,11 +40,7 @@ def _build(desk: Desk) -> None:
             text("p", f"The model with {' and '.join(added)}.", "statement")
         _files(answer)
     with card("Commands"):
-        text(
-            "p",
-            f"In the folder {desk.project.folder}; you can continue a stopped job on the command line.",
-            "small",
-        )
+        text("p", f"In the folder {desk.project.folder}; you can continue a stopped job on the command line.", "small")
         lines = commands(desk)
         text("pre", lines, "code").props('tabindex="0"')
         button("Copy", lambda: _copy(lines), "small")

@@ -34,6 +34,7 @@ class Writing:
         self._ranges: dict[str, Range] = {}  # as they are shown
         self._chosen: dict[str, Range] = {}  # by the user
         self._version = self._asked = 0
+        self._followed = True  # whether usual values come from the learned curve
         try:
             libraries = [project.folder / one for one in project.settings().libraries]
             self._place = LawPlace.of(str(model["class"]), slot, libraries)
@@ -69,6 +70,7 @@ class Writing:
                 if found is None:  # the server ends
                     return
                 self._ranges, curve = dict(found.ranges), found.curve
+                self._followed = curve is not None
             except BadInput as error:
                 self._trouble, self._wrong = str(error) if law.strip() else "", getattr(error, "place", -1)
             if self._chart is not None and self._learned is not None:
@@ -91,6 +93,9 @@ class Writing:
                         text("span", words, "head")
                     for name in self._ranges:
                         self._row(name)
+                if not self._followed:
+                    words = "No learned curve gives these values: they are guesses. Write those that you expect."
+                    text("p", words, "note")
             with box("row"):
                 named = lambda name: setattr(self, "_name", name.strip())  # noqa: E731
                 entry("name of the law", self._name, named).classes("field").style("width: 180px")
