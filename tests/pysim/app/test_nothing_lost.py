@@ -59,6 +59,7 @@ def test_a_killed_worker_and_a_killed_server_lose_nothing(shown: Shown, tmp_path
 def _choose_a_value(tab: Tab, project: Project) -> dict[str, bytes]:
     """A parameter is set, which undo and redo take back and give again."""
     tab.go("Model")
+    tab.page.locator(".chart[aria-label='Measured and simulated'][data-ready=yes]").wait_for()  # logs were read
     field = tab.page.get_by_label("value of k")
     field.fill("41")
     field.press("Tab")
