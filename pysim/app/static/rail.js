@@ -38,7 +38,10 @@ const named = (element) => element.getAttribute?.("aria-label");
 document.addEventListener("focusin", ({ target }) => (field = named(target) ? { name: named(target), target, typed: null } : null));
 document.addEventListener("pointerdown", () => (field = null), true);
 document.addEventListener("input", ({ target }) => field?.target === target && (field.typed = target.value));
-document.addEventListener("change", ({ target }) => field?.target === target && (field.typed = null));
+document.addEventListener("change", ({ target }) => {
+  // where a field is taken away a browser tells of a change as well, and nobody hears it
+  setTimeout(() => target.isConnected && field?.target === target && (field.typed = null));
+});
 new MutationObserver(() => {
   if (!field || field.target.isConnected) return;
   const { name, typed } = field;
@@ -50,5 +53,6 @@ new MutationObserver(() => {
   again.value = typed;
   let told = false; // a browser tells of a change that the user has made, and not of this one
   again.addEventListener("change", () => (told = true), { once: true });
-  again.addEventListener("blur", () => told || again.dispatchEvent(new Event("change")), { once: true });
+  const tell = () => told || !again.isConnected || again.dispatchEvent(new Event("change", { bubbles: true }));
+  again.addEventListener("blur", () => setTimeout(tell), { once: true }); // not where it is taken away as well
 }).observe(document, { childList: true, subtree: true });
