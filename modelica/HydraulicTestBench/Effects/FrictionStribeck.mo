@@ -2,7 +2,7 @@ within HydraulicTestBench.Effects;
 model FrictionStribeck "Dry friction that falls with speed (friction.stribeck)"
   extends Interfaces.PartialPistonForce;
   parameter Types.Force F_c(min=0, max=600, nominal=80) = 0 "Friction force at high speed, 0 = off";
-  parameter Types.Force F_s(min=0, max=800, nominal=120) = 0 "Friction force near standstill, F_c where it is smaller, 0 = off";
+  parameter Types.Force F_s(min=0, max=800, nominal=120) = 0 "Friction force near standstill, at least F_c, 0 = off";
   parameter Types.Velocity v_s(min=1e-3, max=50e-3, nominal=5e-3) = 5e-3 "Speed over which it falls";
   constant Types.Velocity v_t = 1e-3 "Width of the sign change";
 equation
