@@ -8,7 +8,6 @@ from collections.abc import Sequence
 import numpy as np
 
 from pysim.simulate._library import REALS, settable_types
-from pysim.simulate._request import Request
 from pysim.simulate.kernel.functions import TYPES
 from pysim.types import BadInput, Experiment, Model, Variable
 
@@ -68,28 +67,21 @@ def check_experiment(model: Model, experiment: Experiment) -> None:
             raise BadInput(f"{model.label}: state {name} is {model[name].type}; only scalar states can be simulated")
 
 
-def check_requests(model: Model, requests: Sequence[Request]) -> list[Experiment]:
+def check_experiments(model: Model, experiments: Sequence[Experiment]) -> None:
     """Check many; of those that name the same things, the names once.
 
-    Returns:
-        the first of each kind that names the same things.
     Raises:
         BadInput: as `check_experiment`.
     """
     known: dict[object, bool] = {}  # names -> whether all that are set are real, so that any finite number will do
-    found: list[Experiment] = []
-    for request in requests:
-        one, values = request.experiment, request.values
-        sets = one.inputs, one.rates, one.overrides, values
-        names = one.record, one.offset.size, *[tuple(own.keys()) for own in sets]
-        if known.get(names) and math.isfinite(sum(one.overrides.values()) + sum(values.values())):
-            continue
-        whole = request.whole
-        check_experiment(model, whole)
-        if names not in known:
-            found.append(whole)
-        known[names] = all(model[name].type in REALS for name in whole.overrides)
-    return found
+    for experiment in experiments:
+        if not isinstance(experiment, Experiment):
+            check_experiment(model, experiment)
+        used = tuple(experiment.inputs.keys()), tuple(experiment.rates.keys()), tuple(experiment.overrides.keys())
+        names = experiment.record, experiment.offset.size, *used
+        if not (known.get(names) and all(map(math.isfinite, experiment.overrides.values()))):
+            check_experiment(model, experiment)
+            known[names] = all(model[name].type in REALS for name in experiment.overrides)
 
 
 def _check_input(model: Model, variable: Variable) -> None:

@@ -12,6 +12,7 @@ import time
 from collections import deque
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from functools import lru_cache
 from typing import Any
 
@@ -119,7 +120,7 @@ class ForeignLibrary:
         stopped: Stopped,
     ) -> list[Answer]:
         """As `run_tasks`: where what was found for each request stands."""
-        crew = _Crew(self.model, kind.plain(), [one._replace(take=None) for one in requests], stopped)
+        crew = _Crew(self.model, kind.plain(), [replace(one, take=None) for one in requests], stopped)
         return crew.run(min(workers, len(requests)), progress)
 
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pysim.simulate._library import failure
 from pysim.simulate._messages import joined, line_texts
 from pysim.simulate._tasks import Tasks
-from pysim.simulate.kernel.layout import DISCARD, ERROR, EVENT, FATAL, FOUND, RUNNING, STATISTICS
+from pysim.simulate.kernel.layout import DISCARD, DONE, ERROR, EVENT, FATAL, FOUND, RUNNING, STATISTICS
 from pysim.types import Outcome
 
 Array = NDArray[np.float64]
@@ -49,7 +49,7 @@ class Found:
     @property
     def done(self) -> bool:
         """Whether the run came to its end, or the orbit was found."""
-        return self.tasks.done[self.number]
+        return self.number_of("code") == DONE and self.number_of("trouble") == FOUND
 
     @property
     def message(self) -> str:

@@ -43,10 +43,9 @@ def run_tasks(
     if isinstance(library, ForeignLibrary):
         answers = library.run(kind, requests, workers, progress, stopped)
         return [Found(*answer) for answer in answers]
-    groups: dict[tuple[tuple[str, ...], ...], list[int]] = {}
+    groups: dict[tuple[tuple[str, ...], tuple[str, ...]], list[int]] = {}
     for number, request in enumerate(requests):
-        experiment = request.experiment
-        key = experiment.record, tuple(experiment.overrides.keys()), tuple(request.values.keys())
+        key = request.experiment.record, tuple(request.experiment.overrides)
         groups.setdefault(key, []).append(number)
     found: dict[int, Found] = {}
     shown = 0

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +12,6 @@ from pysim.simulate._base import Control, Solver
 from pysim.simulate._variation import Directions
 from pysim.simulate.kernel.method import Method
 from pysim.types import Experiment
-from pysim.types._frozen import FrozenMapping
 
 Array = NDArray[np.float64]
 
@@ -22,15 +20,12 @@ Array = NDArray[np.float64]
 Take = Callable[[int, Array, Array], None]
 
 
-NOTHING: Mapping[str, float] = FrozenMapping({})
-
-
-class Request(NamedTuple):
+@dataclass(frozen=True)
+class Request:
     """One run, or the search for one orbit.
 
     Args:
         experiment: checked; for an orbit one period from time 0, its end included.
-        values: what is set besides its overrides, and in their place.
         states: (n,) to start from, for an orbit a guess; those of the FMU where None.
         start_by: (n, n_p) how they depend on the parameters; not at all where None.
         settling: periods from the model's own start that make a guess, where there is none; half of four cost the
@@ -39,16 +34,10 @@ class Request(NamedTuple):
     """
 
     experiment: Experiment
-    values: Mapping[str, float] = NOTHING
     states: Array | None = None
     start_by: Array | None = None
     settling: int = 4
     take: Take | None = None
-
-    @property
-    def whole(self) -> Experiment:
-        """The experiment with all that is set."""
-        return self.experiment.override(**self.values) if self.values else self.experiment
 
 
 @dataclass(frozen=True)

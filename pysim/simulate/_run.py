@@ -7,7 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from pysim.simulate._base import Solver
-from pysim.simulate._check import check_arguments, check_experiment, check_list, check_requests
+from pysim.simulate._check import check_arguments, check_experiment, check_experiments, check_list
 from pysim.simulate._foreign import Opened, open_model
 from pysim.simulate._found import Found
 from pysim.simulate._pass import Progress, run_tasks
@@ -70,7 +70,7 @@ def simulate_many(
     check_arguments("simulate_many", model, solver)
     check_list("simulate_many", "experiments", experiments, Experiment)
     count = worker_count("simulate_many", model, workers)
-    check_requests(model, [Request(experiment) for experiment in experiments])
+    check_experiments(model, experiments)
     if not experiments:
         return ()
     with open_model(model) as library:

@@ -35,9 +35,7 @@ class Tasks:
         self.kind = kind
         self.error: BaseException | None = None
         experiments = [request.experiment for request in requests]
-        values = requests[0].values
-        own = [name for name in experiments[0].overrides if name not in values]
-        self.record, self.set_names = experiments[0].record, (*own, *values)
+        self.record, self.set_names = experiments[0].record, tuple(experiments[0].overrides)
         count, n = len(requests), len(model.abilities.states)
         self.parameters = len(kind.directions.parameters)
         self.by_offset = n if kind.directions.offset else 0
@@ -46,7 +44,7 @@ class Tasks:
         self._columns: dict[str, list[Any]] = {}
         self.texts = np.zeros((count, LINES, LINE_LENGTH), dtype=np.uint8)
         ends = [float(e.times[-1]) for e in experiments]
-        numbers = [[*(r.experiment.overrides[name] for name in own), *r.values.values()] for r in requests]
+        numbers = np.array([[*e.overrides.values()] for e in experiments], dtype=np.float64).reshape(count, -1)
         self._put("kind", kind.kind)
         self._put("start", [e.start for e in experiments])
         self._put("end", ends)
@@ -57,7 +55,7 @@ class Tasks:
         if any(self._takes):
             sizes = self._put_takes(sizes)
         self._put("mismatch", kind.mismatch)
-        self._rows_of("set_values", np.array(numbers, dtype=np.float64).reshape(count, -1))
+        self._rows_of("set_values", numbers)
         self._given("states", [r.states for r in requests])
         self._given("start_by", [r.start_by for r in requests])
         self._put("offset_at", [offset_time(e) for e in experiments])
@@ -136,15 +134,8 @@ class Tasks:
 
     def counts(self, number: int) -> bool:
         """Whether a task counts as done in what is said of progress."""
-        return self.kind.kind == PLAIN or self.done[number]
-
-    @property
-    def done(self) -> list[bool]:
-        """Of each task, whether the run came to its end, or the orbit was found."""
-        if "done" not in self._columns:
-            done = (self.table["code"] == DONE) & (self.table["trouble"] == FOUND)
-            self._columns["done"] = done.tolist()
-        return self._columns["done"]
+        is_done = self.column("code")[number] == DONE and self.column("trouble")[number] == FOUND
+        return self.kind.kind == PLAIN or is_done
 
     def column(self, name: str) -> list[Any]:
         """A field of all tasks, once they are done."""

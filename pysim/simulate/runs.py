@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 
@@ -60,20 +60,15 @@ class Runs:
         tests: Sequence[Periodic],
         parameters: Sequence[str] = (),
         *,
-        values: Sequence[Mapping[str, float]] = (),
         guesses: Sequence[Array | None] = (),
         solver: Esdirk = Esdirk(),  # noqa: B008
         mismatch: float = 1e-3,
         workers: int | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> Orbits | tuple[()]:
-        """Periodic steady states, as `periodic_many`, each made where it is asked for.
-
-        Args:
-            values: what is set in each test besides its overrides, and in their place; nothing where empty.
-        """
+        """Periodic steady states, as `periodic_many`, each made where it is asked for."""
         check_arguments("orbits", self.model, solver, Esdirk)
-        ask = check_periodic(self.model, tests, parameters, guesses, solver, mismatch, workers, values)
+        ask = check_periodic(self.model, tests, parameters, guesses, solver, mismatch, workers)
         return find_in(self._library, ask, progress) if tests else ()
 
 

@@ -27,25 +27,24 @@ def inflation(left: Sequence[Array], changed: Sequence[Array]) -> float:
     if not left:
         return 1.0
     lags, channels = max(len(rows) for rows in left), left[0].shape[1]
-    found = total = 0.0
+    power = sum(np.sum(change**2, axis=0) for change in changed)
+    total = float(np.sum(power))
+    if not total > 0:
+        return 1.0
+    found = 0.0
     for j in range(channels):
-        correlation = _memory([rest[:, j] for rest in left], lags)
-        of_change = _products([change[:, j] for change in changed], correlation.size)
-        total += of_change[0]
-        found += of_change[0] + 2 * float(correlation[1:] @ of_change[1:])
-    return max(found / total, 1.0) if total > 0 else 1.0
-
-
-def _memory(rows: Sequence[Array], lags: int) -> Array:
-    """Autocorrelation of rows (n_t,) at lags 0 ... before the first at which it is negative; that many at most."""
-    count, end = 0, 1
-    while end > count and count < lags:  # most residuals forget soon: few lags at first
-        count = min(max(_FEW, 4 * count), lags)
-        products = _products(rows, count)
-        negative = np.flatnonzero(products[1:] <= 0)
-        end = 1 + (int(negative[0]) if negative.size else count)
-    products = products[: min(end, count)]
-    return products / products[0] if products[0] > 0 else np.zeros(1)
+        count, end = 0, 1
+        while end > count and count < lags:  # most residuals forget soon: few lags at first
+            count = min(max(_FEW, 4 * count), lags)
+            of_left = _products([rest[:, j] for rest in left], count)
+            negative = np.flatnonzero(of_left[1:] <= 0)
+            end = 1 + (int(negative[0]) if negative.size else count)
+        end = min(end, count)
+        of_change = _products([change[:, j] for change in changed], end)
+        with np.errstate(invalid="ignore", divide="ignore"):
+            correlation = of_left / of_left[0] if of_left[0] > 0 else np.zeros(count)
+        found += of_change[0] + 2 * float(correlation[1:end] @ of_change[1:end])
+    return max(found / total, 1.0)
 
 
 def independent_pieces(residual: Array, shortest: float) -> int:
@@ -54,11 +53,9 @@ def independent_pieces(residual: Array, shortest: float) -> int:
     Args:
         shortest: length of a stretch, in memories of the slowest channel.
     """
-    n, slowest = len(residual), 1.0
-    for column in residual.T:
-        memory = _memory([column], n)
-        slowest = max(slowest, 1 + 2 * float(memory[1:] @ (1 - np.arange(1, memory.size) / n)))
-    return max(int(n / (shortest * slowest)), 1)
+    mean = [np.ones((len(residual), 1))]
+    slowest = max(inflation([column], mean) for column in np.split(residual, residual.shape[1], axis=1))
+    return max(int(len(residual) / (shortest * slowest)), 1)
 
 
 def _products(rows: Sequence[Array], count: int) -> Array:
@@ -75,6 +72,5 @@ def _own_products(row: Array, lags: int) -> Array:
     step, power = size - lags, np.zeros(size // 2 + 1, dtype=np.complex128)
     for first in range(0, row.size, step):
         ahead = np.fft.rfft(row[first : first + size - 1], size)
-        own = ahead if first + step >= row.size else np.fft.rfft(row[first : first + step], size)
-        power += np.conj(own) * ahead
+        power += np.conj(np.fft.rfft(row[first : first + step], size)) * ahead
     return np.asarray(np.fft.irfft(power, size)[:lags])

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import cache
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -12,29 +10,32 @@ Array = NDArray[np.float64]
 
 def regressors(phase: Array, count: int) -> Array:
     """Columns 1, sin(phase), cos(phase), sin(2 phase), ... up to `count` harmonics, (n_t, 2 count + 1)."""
-    powers = np.repeat(np.exp(1j * phase)[:, None], count, axis=1).cumprod(axis=1)
-    columns = np.ones((phase.size, 2 * count + 1))
-    columns[:, 1::2], columns[:, 2::2] = powers.imag, powers.real
-    return columns
-
-
-@cache
-def analysis(points: int) -> Array:
-    """From equidistant samples of a period to the coefficients of their harmonics, (2 (points // 2) + 1, points)."""
-    columns = regressors(2 * np.pi * np.arange(points) / points, points // 2)
-    if points % 2 == 0:
-        columns[:, -2] = 0.0  # of the highest harmonic the samples show the cosine alone
-    found = np.asarray(columns.T / np.maximum(np.sum(columns**2, axis=0), 1.0)[:, None])
-    found.setflags(write=False)
-    return found
+    order = np.arange(1, count + 1) * phase[:, None]
+    columns = np.stack([np.sin(order), np.cos(order)], axis=2).reshape(phase.size, -1)
+    return np.hstack([np.ones((phase.size, 1)), columns])
 
 
 def interpolation(phase: Array, points: int) -> Array:
     """Weights (n_t, points) that give a periodic signal at phases (n_t,) rad from equidistant samples over one period.
 
     Exact for every harmonic below points / 2; what lies above is folded down as sampling does.
+
+    Source: Henrici 1979, Numerische Mathematik 33:225 (barycentric formula).
     """
-    return np.asarray(regressors(phase, points // 2) @ analysis(points))
+    half, node = 0.5 * phase, np.pi * np.arange(points) / points
+    sides = np.column_stack([np.sin(half), np.cos(half)])
+    nearest = np.round(half * (points / np.pi))
+    met = np.abs(np.sin(half - nearest * (np.pi / points))) <= 1e-12  # a phase that falls on a sample
+    own = np.flatnonzero(met), (nearest[met] % points).astype(np.intp)
+    sin = sides @ np.stack([np.cos(node), -np.sin(node)])
+    sin[own] = 1.0
+    weights = (1.0 - 2.0 * (np.arange(points) % 2)) / sin
+    if points % 2 == 0:
+        weights *= sides @ np.stack([np.sin(node), np.cos(node)])
+    weights[met] = 0.0
+    weights[own] = 1.0
+    weights /= weights.sum(axis=1, keepdims=True)
+    return np.asarray(weights)
 
 
 def to_complex(coefficients: Array) -> NDArray[np.complex128]:

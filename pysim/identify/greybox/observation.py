@@ -18,9 +18,6 @@ from pysim.types import Experiment, RecordFit, ResponseFit
 Array = NDArray[np.float64]
 
 
-_NO_STATES: Array = np.zeros((0, 0, 0))  # of hundreds of runs
-
-
 class Measure(Enum):
     """In what residuals are counted."""
 
@@ -82,7 +79,7 @@ class Simulated:
 
     values: Array
     slopes: Array
-    by_initial: Array = field(default_factory=lambda: _NO_STATES)
+    by_initial: Array = field(default_factory=lambda: np.zeros((0, 0, 0)))
     reduction: Reduction | None = None
 
 

@@ -471,14 +471,13 @@ def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> 
     kept = np.column_stack([table[:, : 1 + n], more]) if more.size else table[:, : 1 + n]
     if not values.size:
         return _Eliminated(np.ascontiguousarray(table[:, 0]), kept, np.zeros((0, kept.shape[1])), 0.0, 0)
-    count, width = values.size, kept.shape[1]
-    rows = np.zeros((count + len(kept), width))
-    rows[:count, 0], priors, columns = -values / sd, np.diag(-1 / sd), table[:, 1 + n :]
-    below = np.column_stack([table, more]) if more.size else table
-    ahead = np.zeros((count, below.shape[1]))
-    ahead[:, 0], ahead[:, 1 + n : 1 + n + count] = -values / sd, priors
-    order = np.r_[1 + n : 1 + n + count, : 1 + n, 1 + n + count : below.shape[1]]
-    whole = triangle([triangle([below, ahead])[:, order]])
+    count = values.size
+    rows = np.zeros((count + len(kept), kept.shape[1]))
+    rows[:count, 0], rows[count:] = -values / sd, kept
+    priors, columns = np.diag(-1 / sd), table[:, 1 + n :]
+    slices = [slice(first, first + ROWS) for first in range(0, len(table), ROWS)]
+    ahead = np.column_stack([priors, rows[:count]])
+    whole = triangle([ahead, *(np.column_stack([columns[own], kept[own]]) for own in slices)])
     own, others = whole[:count, :count], whole[:count, count:]
     size = np.linalg.norm(own, axis=0)
     size[size == 0] = 1.0
@@ -486,10 +485,10 @@ def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> 
     held = sigma > EXACT * sigma[0]
     inner = u[:, held].T @ others
     solution = (vt[held].T @ (inner / sigma[held, None])) / size[:, None]
-    np.matmul(columns, solution, out=rows[count:])
-    np.subtract(kept, rows[count:], out=rows[count:])
-    residual = np.append(rows[:count, 0], table[:, 0])
+    residual = rows[:, 0].copy()
     rows[:count] -= priors @ solution
+    for part in slices:
+        rows[count:][part] -= columns[part] @ solution
     return _Eliminated(residual, rows, solution, 0.5 * float(inner[:, 0] @ inner[:, 0]), count)
 
 
@@ -525,6 +524,8 @@ def _stacked(parts: Sequence[Array]) -> Array:
 
 def _orbits(answer: Answer, n: int) -> tuple[list[Array | None], list[tuple[Array, Array] | None]]:
     """States of the orbits, which need no step of their own, and how they move with x."""
-    nothing = next((np.zeros(orbit[0].size) for orbit in answer.orbits if orbit is not None), np.zeros(0))
-    states = [None if orbit is None else orbit[0] for orbit in answer.orbits]
-    return states, [None if orbit is None else (nothing, orbit[1][:, :n]) for orbit in answer.orbits]
+    states: list[Array | None] = [None if orbit is None else orbit[0] for orbit in answer.orbits]
+    steps: list[tuple[Array, Array] | None] = [
+        None if orbit is None else (np.zeros(orbit[0].size), orbit[1][:, :n]) for orbit in answer.orbits
+    ]
+    return states, steps

@@ -154,7 +154,7 @@ def _simulated(run: Sensitivities, job: Job, free: NDArray[np.intp], reduction: 
     """A run over time by the search's numbers; rows that could not be taken while it went on are taken now."""
     if reduction is None:
         by_initial = run.by_offset[:, :, free if job.offset else _NONE]
-        return Simulated(run.record.values, _times(run.by_parameter, job.slopes), by_initial)
+        return Simulated(run.record.values, run.by_parameter @ job.slopes, by_initial)
     if len(run.record.values):
         reduction.take(0, run.record.values, np.concatenate([run.by_offset, run.by_parameter], axis=2))
     return Simulated(np.zeros((0, 0)), np.zeros((0, 0, 0)), reduction=reduction)
@@ -191,14 +191,9 @@ def _take_orbits(
 def _chained(by_variables: Array, chains: Sequence[Array]) -> Array:
     """Slopes of orbits (n, ..., n_v) by the search's numbers (n, ..., n_x); most logs share one chain (n_v, n_x)."""
     if all(chain is chains[0] for chain in chains):
-        return _times(by_variables, chains[0])
+        outer, (n_v, n_x) = by_variables.shape[:-1], chains[0].shape
+        return (by_variables.reshape(math.prod(outer), n_v) @ chains[0]).reshape(*outer, n_x)
     return np.array([by @ chain for by, chain in zip(by_variables, chains, strict=True)])
-
-
-def _times(slopes: Array, chain: Array) -> Array:
-    """Slopes (..., n_v) times a matrix (n_v, n_x), in one product: NumPy makes one for each pair of rows otherwise."""
-    outer, (n_v, n_x) = slopes.shape[:-1], chain.shape
-    return (slopes.reshape(math.prod(outer), n_v) @ chain).reshape(*outer, n_x)
 
 
 def _results(model: Model, jobs: list[Job], simulation: Simulation) -> Iterator[tuple[Sequence[Job], Sequence[Result]]]:
@@ -233,8 +228,8 @@ class _Settings:
         """One run at the point, from the state or with the offset that is guessed."""
         overrides, names, chain = self.of(run.record)
         if run.orbit is not None:
-            return Job(place, run.orbit, overrides, names, chain, guess, self.mismatch)
+            return Job(place, run.orbit.override(**overrides), names, chain, guess, self.mismatch)
         by_initial = bool(run.free.size) and self.initial
         guess = np.zeros(run.free.size) if guess is None and by_initial else guess
-        experiment = run.over_time({}, guess)
-        return Job(place, experiment, overrides, names, chain, None, self.mismatch, offset=by_initial)
+        experiment = run.over_time(overrides, guess)
+        return Job(place, experiment, names, chain, None, self.mismatch, offset=by_initial)

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.harmonics import analysis, harmonic_count, regressors, to_complex
+from pysim.identify.greybox.harmonics import harmonic_count, interpolation, regressors, to_complex
 from pysim.identify.greybox.settings import SteadySettings
 from pysim.identify.greybox.treatment import SinePlan
 from pysim.identify.logged import LoggedWave
@@ -83,7 +83,7 @@ class SineLog:
     @cached_property
     def onto(self) -> Array:
         """From a period of the model's orbit (points,) to uncorrelated harmonics of unit noise, (n_h, points)."""
-        return np.asarray(self.columns.T @ regressors(self.phase, self.points // 2) @ analysis(self.points))
+        return np.asarray(self.columns.T @ interpolation(self.phase, self.points))
 
     @cached_property
     def harmonics(self) -> Array:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from pysim.identify.accuracy import frequency_deviations
 from pysim.identify.greybox.context import Context
-from pysim.identify.greybox.harmonics import analysis, regressors
+from pysim.identify.greybox.harmonics import interpolation
 from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind, SensorErrors, gains
 from pysim.identify.greybox.observation import Measure, Run, Simulated
 from pysim.identify.greybox.response import LogResponse, beside_measured, log_response, thesis_deviation
@@ -186,7 +186,7 @@ class SteppedSines:
         return records, tuple(self._response(answers, j) for j in range(len(self.channels)))
 
     def _record(self, log: SineLog, answer: Simulated) -> RecordFit:
-        values = regressors(log.phase, log.points // 2) @ (analysis(log.points) @ answer.values)
+        values = interpolation(log.phase, log.points) @ answer.values
         measured, model = log.coefficients(log.harmonics), log.coefficients(log.onto @ answer.values)
         harmonics = tuple(
             Harmonics(name, log.sine.frequency, measured[:, j], model[:, j], log.noise[j] * log.deviations())

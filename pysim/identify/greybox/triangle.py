@@ -21,7 +21,8 @@ def triangle(parts: Iterable[Array]) -> Array:
     for part in parts:
         for first in range(0, max(len(part), 1), ROWS):
             rows = part[first : first + ROWS]
-            found = np.asarray(np.linalg.qr(rows if found is None else np.concatenate([found, rows]), mode="r"))
+            found = np.zeros((0, rows.shape[1])) if found is None else found
+            found = np.asarray(np.linalg.qr(np.concatenate([found, rows]), mode="r"))
     if found is None:
         return np.zeros((0, 0))
     missing = found.shape[1] - len(found)

@@ -7,7 +7,7 @@ import multiprocessing
 import os
 import signal
 import threading
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import ExitStack, contextmanager
@@ -29,8 +29,7 @@ class Job:
 
     Args:
         place: of the run among those asked for.
-        run: a run over time, or an orbit, as it is from pass to pass.
-        values: what is set in it besides.
+        run: a run over time, or an orbit.
         names: variables whose slopes are wanted.
         slopes: (n_v, n_x) of those variables by the search's numbers.
         guess: state to start an orbit's search from, or None.
@@ -41,7 +40,6 @@ class Job:
 
     place: int
     run: Experiment | Periodic
-    values: Mapping[str, float]
     names: tuple[str, ...]
     slopes: Array
     guess: Array | None = None
@@ -158,11 +156,9 @@ def run_jobs(model: Model, jobs: Sequence[Job], solver: Esdirk, workers: int | N
     names, orbits = jobs[0].names, [job.run for job in jobs if isinstance(job.run, Periodic)]
     with _KEPT.use(model) as runs:
         if orbits:
-            values, guesses, left = [job.values for job in jobs], [job.guess for job in jobs], jobs[0].mismatch
-            return runs.orbits(
-                orbits, names, values=values, guesses=guesses, solver=solver, mismatch=left, workers=workers
-            )
-        own = [job.run.override(**job.values) for job in jobs if isinstance(job.run, Experiment)]
+            guesses, left = [job.guess for job in jobs], min(job.mismatch for job in jobs)
+            return runs.orbits(orbits, names, guesses=guesses, solver=solver, mismatch=left, workers=workers)
+        own = [job.run for job in jobs if isinstance(job.run, Experiment)]
         takes = [job.take for job in jobs]
         return runs.sensitivities(own, names, offset=jobs[0].offset, takes=takes, solver=solver, workers=workers)
 

@@ -22,7 +22,7 @@ from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import ORBIT, VARIED
 from pysim.simulate.sensitivity.differences import DIFFERENCE_STEP, tight
 from pysim.simulate.sensitivity.probe import Offer, both_sides
-from pysim.simulate.sensitivity.sensitivities import Ask, read_only, run_in, spread
+from pysim.simulate.sensitivity.sensitivities import Ask, run_in
 from pysim.simulate.sensitivity.transient import Settled, after, settle_down
 from pysim.types import Experiment, Outcome, Record
 
@@ -64,7 +64,9 @@ class Orbit:
 
     def __post_init__(self) -> None:
         for name in ("by_parameter", "state", "state_by_parameter"):
-            object.__setattr__(self, name, read_only(getattr(self, name)))
+            array = np.array(getattr(self, name), dtype=np.float64)
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
 
 
 class OrbitStack(NamedTuple):
@@ -152,7 +154,7 @@ class Plan:
         return Kind(ORBIT, self.solver, self.directions, self.mismatch)
 
 
-def remembers(plan: Plan, request: Request) -> bool:
+def remembers(plan: Plan, experiment: Experiment, guess: Array | None) -> bool:
     """Whether the model remembers more than its states, so that a period cannot be started from them.
 
     If not, a second period of an orbit ends where the first one did, but for what the choice of the steps may move. As
@@ -160,12 +162,11 @@ def remembers(plan: Plan, request: Request) -> bool:
     """
     if plan.library.known.get("remembers") is False:
         return False
-    (found,) = run_tasks(plan.library, plan.kind, [request])
+    (found,) = run_tasks(plan.library, plan.kind, [Request(experiment, guess)])
     if not found.done:
         return False
-    period = request.experiment
-    twice = replace(period, times=np.append(period.times, period.times[-1] * 2))
-    requests = [Request(run, request.values, found.array("state")) for run in (period, twice)]
+    twice = replace(experiment, times=np.append(experiment.times, experiment.times[-1] * 2))
+    requests = [Request(run, found.array("state")) for run in (experiment, twice)]
     once, again = run_tasks(plan.library, Kind(VARIED, plan.solver), requests)
     if once.failed_to_start or again.failed_to_start:
         return False
@@ -180,18 +181,18 @@ def remembers(plan: Plan, request: Request) -> bool:
     return found_out
 
 
-def find_orbits(plan: Plan, requests: Sequence[Request], **watched: Any) -> list[Found]:
-    """What the kernel finds, each with a guess or none; where a guess leads nowhere, from the model's own start.
+def find_orbits(plan: Plan, tests: Sequence[tuple[Experiment, Array | None]], **watched: Any) -> list[Found]:
+    """What the kernel finds for tests, each with a guess or none; where a guess leads nowhere, the model's own start.
 
     Args:
         watched: workers, progress and stopped, as of `run_tasks`.
     """
-    found = run_tasks(plan.library, plan.kind, requests, **watched)
-    again = [i for i, one in enumerate(found) if not one.done and not one.event and requests[i].states is not None]
+    found = run_tasks(plan.library, plan.kind, [Request(*test) for test in tests], **watched)
+    again = [i for i, one in enumerate(found) if not one.done and not one.event and tests[i][1] is not None]
     if again:
-        bare = [requests[i]._replace(states=None) for i in again]
+        requests = [Request(tests[i][0]) for i in again]
         watched.pop("progress", None)
-        for i, one in zip(again, run_tasks(plan.library, plan.kind, bare, **watched), strict=True):
+        for i, one in zip(again, run_tasks(plan.library, plan.kind, requests, **watched), strict=True):
             found[i] = one
     return found
 
@@ -222,15 +223,22 @@ def orbit_of(plan: Plan, experiment: Experiment, found: Found | None, stopped: S
     columns, by = found.slopes, found.array("state_by")
     if plan.missing:
         places = [plan.parameters.index(name) for name in plan.directions.parameters]
-        columns, by = spread(columns, places, len(plan.parameters)), spread(by, places, len(plan.parameters))
+        columns, by = _spread(columns, places, len(plan.parameters)), _spread(by, places, len(plan.parameters))
     iterations = found.number_of("iterations")
     orbit = Orbit(record, plan.parameters, columns, found.array("state"), by, iterations)
     return _with_differences(plan, experiment, orbit, stopped) if plan.missing else orbit
 
 
 def _find_orbit(plan: Plan, experiment: Experiment, guess: Array | None, stopped: Stopped) -> Orbit:
-    (found,) = find_orbits(plan, [Request(experiment, states=guess)], stopped=stopped)
+    (found,) = find_orbits(plan, [(experiment, guess)], stopped=stopped)
     return orbit_of(plan, experiment, found, stopped)
+
+
+def _spread(columns: Array, places: list[int], count: int) -> Array:
+    """The columns (..., n) at their places among that many, the others not a number."""
+    spread = np.full((*columns.shape[:-1], count), np.nan)
+    spread[..., places] = columns
+    return spread
 
 
 def _again(plan: Plan, experiment: Experiment, found: Found, stopped: Stopped) -> Orbit:

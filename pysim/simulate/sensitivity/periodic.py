@@ -16,11 +16,11 @@ from pysim.simulate._foreign import Opened, open_model
 from pysim.simulate._found import Found
 from pysim.simulate._pass import later
 from pysim.simulate._pool import Stopped, side_by_side, worker_count
-from pysim.simulate._request import NOTHING, Request
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.sensitivity.orbit import Orbit, Orbits, Plan, find_orbits, is_settled, orbit_of, remembers
 from pysim.simulate.sensitivity.probe import check_names, check_parameters, probe_each
 from pysim.types import BadInput, Experiment, Model, Signal
+from pysim.types._frozen import changed
 
 Array = NDArray[np.float64]
 
@@ -71,6 +71,11 @@ class Periodic:
     def experiment(self) -> Experiment:
         """One period from time 0, its end included."""
         return self._experiment
+
+    def override(self, **values: float) -> Periodic:
+        """The same test with more parameters set; what stays is not checked again."""
+        experiment = self._experiment.override(**values)
+        return changed(self, _experiment=experiment, overrides=experiment.overrides)
 
 
 def _repeats(signal: Signal, period: float) -> bool:
@@ -137,8 +142,9 @@ def periodic_many(
 class Ask:
     """Checked arguments of `periodic_many`."""
 
-    requests: tuple[Request, ...]
+    experiments: tuple[Experiment, ...]
     names: tuple[str, ...]
+    guesses: tuple[Array | None, ...]
     solver: Esdirk
     mismatch: float
     workers: int
@@ -152,12 +158,9 @@ def check_periodic(
     solver: Esdirk,
     mismatch: float,
     workers: int | None,
-    values: Sequence[Mapping[str, float]] = (),
 ) -> Ask:
     """Check what `periodic_many` is given.
 
-    Args:
-        values: what is set in each test besides its overrides; nothing where empty.
     Raises:
         BadInput: as there.
     """
@@ -167,37 +170,35 @@ def check_periodic(
     starts = _check_guesses(model, tests, guesses)
     if not mismatch > 0:
         raise BadInput(f"periodic_many: mismatch must be positive, got {mismatch}")
-    sets = values or (NOTHING,) * len(tests)
-    requests = tuple([Request(t.experiment(), v, s) for t, v, s in zip(tests, sets, starts, strict=True)])
-    check_parameters("periodic_many", model, requests, names)
-    return Ask(requests, names, solver, mismatch, count)
+    experiments = tuple(test.experiment() for test in tests)
+    check_parameters("periodic_many", model, experiments, names)
+    return Ask(experiments, names, tuple(starts), solver, mismatch, count)
 
 
 def find_in(library: Opened, ask: Ask, progress: Callable[[int, int], None] | None) -> Orbits:
     """As `periodic_many`, with a library that is open already."""
-    requests, count = ask.requests, ask.workers
-    offers = probe_each(library, requests, ask.solver, ask.names)
+    experiments, starts, count = ask.experiments, ask.guesses, ask.workers
+    offers = probe_each(library, experiments, ask.solver, ask.names)
     plans = {record: Plan(library, ask.solver, ask.names, offer, ask.mismatch) for record, offer in offers.items()}
-    quick = min(requests, key=lambda request: request.experiment.times[-1])
-    long_way = remembers(plans[quick.experiment.record], quick)
+    quick = min(range(len(experiments)), key=lambda i: float(experiments[i].times[-1]))
+    long_way = remembers(plans[experiments[quick].record], experiments[quick], starts[quick])
     found: dict[int, Found] = {}
     whole: dict[int, Found] = {}  # where that is all there is to an orbit
     for record, plan in plans.items():
-        numbers = [i for i, request in enumerate(requests) if request.experiment.record == record and not long_way]
-        watch = later(progress, len(whole), len(requests))
+        numbers = [i for i, experiment in enumerate(experiments) if experiment.record == record and not long_way]
+        pairs, watch = [(experiments[i], starts[i]) for i in numbers], later(progress, len(whole), len(experiments))
         watch = None if plan.missing or not plan.offer.outputs else watch
-        own = find_orbits(plan, [requests[i] for i in numbers], workers=count, progress=watch)
-        found |= zip(numbers, own, strict=True)
+        found |= zip(numbers, find_orbits(plan, pairs, workers=count, progress=watch), strict=True)
         whole |= {i: found[i] for i in numbers if is_settled(plan, found[i])}
 
     def make(number: int, stopped: Stopped = lambda: False) -> Orbit:
-        experiment = requests[number].whole
+        experiment = experiments[number]
         return orbit_of(plans[experiment.record], experiment, found.get(number), stopped)
 
-    left = [i for i in range(len(requests)) if i not in whole]
-    watch = later(progress, len(whole), len(requests))
+    left = [i for i in range(len(experiments)) if i not in whole]
+    watch = later(progress, len(whole), len(experiments))
     others = side_by_side([partial(make, number) for number in left], count, watch) if left else ()
-    return Orbits(len(requests), make, dict(zip(left, others, strict=True)), whole)
+    return Orbits(len(experiments), make, dict(zip(left, others, strict=True)), whole)
 
 
 def _check_guesses(model: Model, tests: Sequence[Periodic], guesses: Sequence[Array | None]) -> list[Array | None]:
@@ -205,10 +206,10 @@ def _check_guesses(model: Model, tests: Sequence[Periodic], guesses: Sequence[Ar
         return [None] * len(tests)
     if len(guesses) != len(tests):
         raise BadInput(f"periodic_many: {len(tests)} tests need as many guesses or none, got {len(guesses)}")
-    n, starts = len(model.abilities.states), list[Array | None]()
+    n, starts = len(model.abilities.states), []
     for guess in guesses:
         try:
-            start = np.zeros(0) if guess is None else np.asarray(guess, dtype=np.float64)
+            start = np.zeros(0) if guess is None else np.array(guess, dtype=np.float64)
         except (TypeError, ValueError) as error:
             raise BadInput(f"periodic_many: a guess is the model's {n} states, got {guess!r}") from error
         if start.size and start.shape != (n,):

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.simulate._check import check_experiment, check_requests
+from pysim.simulate._check import check_experiment, check_experiments
 from pysim.simulate._foreign import Opened
 from pysim.simulate._found import Found
 from pysim.simulate._pass import run_tasks
@@ -60,8 +60,8 @@ def check_names(function: str, parameters: Sequence[str]) -> tuple[str, ...]:
     return names
 
 
-def check_parameters(function: str, model: Model, requests: Sequence[Request], names: Sequence[str]) -> None:
-    """Check what is asked for, and that each run can be differentiated by each name.
+def check_parameters(function: str, model: Model, experiments: Sequence[Experiment], names: Sequence[str]) -> None:
+    """Check the experiments, and that each can be differentiated by each name.
 
     Raises:
         BadInput: as `simulate`, or a name that is not real, cannot be set, is driven, or has no value.
@@ -69,9 +69,14 @@ def check_parameters(function: str, model: Model, requests: Sequence[Request], n
     for name in names:
         if model[name].type not in ("Real", "Float64"):
             raise BadInput(f"{function}: {name} is {model[name].type}; a derivative needs a real parameter")
-    for experiment in check_requests(model, requests):
-        values = {name: value_of(model, experiment, name) for name in names}
-        check_experiment(model, experiment.override(**values))
+    check_experiments(model, experiments)
+    known: set[object] = set()
+    for experiment in experiments:
+        used = tuple(experiment.inputs.keys()), tuple(experiment.rates.keys()), tuple(experiment.overrides.keys())
+        if used not in known:
+            values = {name: value_of(model, experiment, name) for name in names}
+            check_experiment(model, experiment.override(**values))
+            known.add(used)
 
 
 def size_of(variable: Variable, value: float) -> float:
@@ -138,13 +143,12 @@ def probe(library: Opened, experiment: Experiment, solver: Esdirk, parameters: S
     once = once.override(**{name: value_of(model, once, name) for name in wanted})  # all sides set the same names
     sides = [both_sides(model, once, name, START_STEP) for name in wanted]
     moves = (START_STEP * sizes, -START_STEP * sizes)
-    asked = [Request(once, states=point + move) for move in moves]
-    asked += [Request(side, states=point) for up, down, _ in sides for side in (up, down)]
-    here = Request(once, states=point)
-    given, *found = points(library, solver, Directions(states=True, outputs=False), [here, *asked])
+    asked = [Request(once, point + move) for move in moves]
+    asked += [Request(side, point) for up, down, _ in sides for side in (up, down)]
+    given, *found = points(library, solver, Directions(states=True, outputs=False), [Request(once, point), *asked])
     if given.done and not _states_agree(given, found[0], found[1], sizes):
         return _NOTHING
-    columns = _columns(library, solver, wanted, here)
+    columns = _columns(library, solver, wanted, Request(once, point))
     agreeing = {
         name
         for k, (name, column) in enumerate(zip(wanted, columns, strict=True))
@@ -155,19 +159,18 @@ def probe(library: Opened, experiment: Experiment, solver: Esdirk, parameters: S
 
 
 def probe_each(
-    library: Opened, requests: Sequence[Request], solver: Esdirk, parameters: Sequence[str]
+    library: Opened, experiments: Sequence[Experiment], solver: Esdirk, parameters: Sequence[str]
 ) -> dict[tuple[str, ...], Offer]:
-    """The offer for each choice of variables to record, from the first of the runs that can be started.
+    """The offer for each choice of variables to record, from the first of the experiments that can be started.
 
     As long as a library is open it is asked once.
     """
     offers: dict[tuple[str, ...], Offer | None] = {}
-    for request in requests:
-        record = request.experiment.record
-        if offers.get(record) is None:
-            key = record, tuple(parameters)
-            offers[record] = library.known.get(key) or probe(library, request.whole, solver, parameters)
-            library.known[key] = offers[record]
+    for experiment in experiments:
+        key = experiment.record, tuple(parameters)
+        if offers.get(experiment.record) is None:
+            offers[experiment.record] = library.known.get(key) or probe(library, experiment, solver, parameters)
+            library.known[key] = offers[experiment.record]
     return {record: offer or _NOTHING for record, offer in offers.items()}
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -32,20 +31,6 @@ from pysim.types import BadInput, Experiment, Model, Outcome, Record, Simulation
 Array = NDArray[np.float64]
 
 
-def read_only(array: Array) -> Array:
-    """The same numbers, which cannot be written to from here."""
-    view = array.view()
-    view.setflags(write=False)
-    return view
-
-
-def spread(columns: Array, places: Sequence[int], count: int) -> Array:
-    """The columns (..., n) at their places among that many, the others not a number."""
-    found = np.full((*columns.shape[:-1], count), np.nan)
-    found[..., places] = columns
-    return found
-
-
 @dataclass(frozen=True)
 class Sensitivities:
     """A run and how its parameters move it.
@@ -68,7 +53,9 @@ class Sensitivities:
 
     def __post_init__(self) -> None:
         for name in ("by_parameter", "by_offset"):
-            object.__setattr__(self, name, read_only(getattr(self, name)))
+            array = np.array(getattr(self, name), dtype=np.float64)
+            array.setflags(write=False)
+            object.__setattr__(self, name, array)
 
 
 def sensitivities(
@@ -161,7 +148,7 @@ def check_sensitivities(
     check_list("sensitivities_many", "experiments", experiments, Experiment)
     count = worker_count("sensitivities_many", model, workers)
     names = check_names("sensitivities_many", parameters)
-    check_parameters("sensitivities_many", model, [Request(experiment) for experiment in experiments], names)
+    check_parameters("sensitivities_many", model, experiments, names)
     if offset and any(e.offset.size != len(model.abilities.states) for e in experiments):
         raise BadInput("sensitivities_many: a derivative by the offset needs experiments with one; give them zeros")
     return Ask(tuple(experiments), names, offset, solver, count)
@@ -170,7 +157,7 @@ def check_sensitivities(
 def run_in(library: Opened, ask: Ask, progress: Progress | None) -> tuple[Sensitivities, ...]:
     """As `sensitivities_many`, with a library that is open already."""
     experiments, names, solver, count = ask.experiments, ask.names, ask.solver, ask.workers
-    offers = probe_each(library, [Request(experiment) for experiment in experiments], solver, names)
+    offers = probe_each(library, experiments, solver, names)
     whole = {record for record, offer in offers.items() if len(offer.parameters) == len(names)}
     starts = start_slopes(library, experiments, solver, offers, count)
     found: dict[int, Found] = {}
@@ -205,9 +192,9 @@ def _one(
     names = ask.names
     if varied is None or varied.event or varied.failed_to_start:
         return _by_differences(library, ask, experiment, varied is not None and varied.event, stopped)
-    columns, missing = varied.slopes, [name for name in names if name not in offer.parameters]
-    if missing:
-        columns = spread(columns, [names.index(name) for name in offer.parameters], len(names))
+    columns = np.full((len(varied.values), len(experiment.record), len(names)), np.nan)
+    columns[:, :, [names.index(name) for name in offer.parameters]] = varied.slopes
+    missing = [name for name in names if name not in offer.parameters]
     record = record_of(library.model, experiment, varied)
     if not missing or record.outcome is not Outcome.DONE:
         moved = start_by is not None and bool(start_by.any())
@@ -223,8 +210,6 @@ def _one(
 
 def _not_finite(record: Record, names: tuple[str, ...], columns: Array) -> list[str]:
     """The first derivative (n_t, n_y, n_p) that does not exist, in words; as of a square root at zero."""
-    if math.isfinite(columns.sum()):
-        return []
     wrong = np.argwhere(~np.isfinite(columns))
     if not len(wrong):
         return []

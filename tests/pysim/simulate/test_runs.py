@@ -58,15 +58,3 @@ def test_results_do_not_depend_on_who_ran_before(fixture_model: Callable[..., Mo
         runs.orbits(orbits(2), ("D",))
         again = runs.sensitivities(experiments(1), ("w",), solver=Esdirk(1e-6, 1e-6))
     np.testing.assert_array_equal(again[0].by_parameter, alone[0].by_parameter)
-
-
-def test_what_is_set_beside_a_test_is_as_its_overrides(fixture_model: Callable[..., Model]) -> None:
-    model, sines = fixture_model(OSCILLATOR), orbits(3)
-    bare = [Periodic(one.period, one.points, one.record, one.inputs) for one in sines]
-    with open_runs(model) as runs:
-        found = runs.orbits(bare, ("w", "D"), values=[dict(one.overrides) for one in sines])
-        with pytest.raises(BadInput, match="finite number"):
-            runs.orbits(bare[:1], values=[{"D": math.inf}])
-    for one, other in zip(found, periodic_many(model, sines, ("w", "D")), strict=True):
-        np.testing.assert_array_equal(one.record.values, other.record.values)
-        np.testing.assert_array_equal(one.by_parameter, other.by_parameter)

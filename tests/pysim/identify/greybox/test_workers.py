@@ -78,7 +78,7 @@ def test_an_fmu_that_crashes_ends_its_worker_and_not_the_run(tmp_path: Path) -> 
     model = read_model(fixture_fmus.build(fixture_fmus.FRAGILE, 2, tmp_path))
     times = np.linspace(0.0, 3.0, 7)  # its state passes zero at 2 s, where manner 3 ends the process
     crash, fine = (Experiment(times[:n], ("x",), overrides={"manner": manner}) for n, manner in ((7, 3.0), (3, 0.0)))
-    jobs = [Job(i, run, {}, ("manner",), np.ones((1, 1))) for i, run in enumerate((fine, crash, fine))]
+    jobs = [Job(i, run, ("manner",), np.ones((1, 1))) for i, run in enumerate((fine, crash, fine))]
     first, lost, last = Processes(2).run(model, jobs, Esdirk())
     assert lost.record.outcome is not Outcome.DONE
     assert "crashed" in lost.record.message

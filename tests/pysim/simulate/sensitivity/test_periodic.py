@@ -135,6 +135,16 @@ def test_corrections_as_small_as_the_steps_can_move_them_end_the_search(amplitud
     assert (apart <= 3e-3 * amplitudes).all()  # 30 tolerated errors
 
 
+def test_override_sets_parameters_and_leaves_the_original_alone():
+    first = driven(w=1.0)
+    second = first.override(w=2.0, D=0.3)
+    assert (dict(first.overrides), dict(first.experiment().overrides)) == ({"w": 1.0}, {"w": 1.0})
+    assert dict(second.overrides) == dict(second.experiment().overrides) == {"w": 2.0, "D": 0.3}
+    assert (second.period, second.inputs, second.experiment().times.size) == (first.period, first.inputs, 25)
+    with pytest.raises(BadInput, match="'w' cannot be set to 'fast'"):
+        first.override(w="fast")
+
+
 def test_without_derivatives_from_the_fmu_differences_tell_the_same(fixture_model):
     (orbit,) = periodic_many(fixture_model(_PLAIN), [driven()], ("w", "D"))
     values, by = steady_oscillation(driven())
