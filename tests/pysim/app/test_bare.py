@@ -45,6 +45,7 @@ def test_single_logs_are_described_on_the_page(shown: Shown, show: Show, logs: l
     tab.shot("bare")
     tab.press("Use these logs")
     tab.see("spare: choose a unit, or a dash to leave the column out")
+    tab.until(tab.page.get_by_role("button", name="Use these logs", exact=True).is_enabled)  # drawn anew until then
     tab.page.get_by_label("role of column 4").select_option("-")
     tab.press("Use these logs")
     tab.see("3 records, 1 not fitted")
