@@ -77,7 +77,7 @@ def learn(
     if session.build_law is None:
         search.floors = search.floors.with_(base)
         search.say.doing("trying laws at inputs and outputs")
-        laws = outside_laws(base, {channel: floor.sd for channel, floor in search.floors.floors.items()})
+        laws = outside_laws(base, search.floors.sd)
         return replace(_answer(session, search, Found(base, base, (), search.floors)), missing=laws)
     present = search.with_effects(base, effects) if effects else base
     search.floors = search.floors.with_(base).with_(present)
@@ -239,9 +239,7 @@ def _with_law(found: Found, models: Named, law: LawFit) -> tuple[Found, Named]:
 
 def _learned(session: Session, search: Search, found: Found) -> Learning:
     """The best law beside the final model."""
-    floors = {channel: floor.sd for channel, floor in found.floors.floors.items()}
-    learner = Learner(session, found.final, floors, search.tried, search.vetoed, search.say.doing)
-    learning = learner.learn()
+    learning = Learner(session, found.final, found.floors, search.tried, search.vetoed, search.say.doing).learn()
     if learning.law is not None and found.final.candidate.effects:
         final = found.final
         law = without_the_unseated(
@@ -251,7 +249,7 @@ def _learned(session: Session, search: Search, found: Found) -> Learning:
             found.base,
             found.losses,
             partial(search.models.alone, nuisances=final.candidate.nuisances),
-            floors,
+            found.floors.sd,
             search.tried,
         )
         learning = replace(learning, fits=(law, *learning.fits[1:]))

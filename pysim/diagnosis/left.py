@@ -12,7 +12,7 @@ from dataclasses import dataclass, field
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.refit import FinalFit, begin
 from pysim.diagnosis.rivals import of
 from pysim.identify.greybox.noise import white_floor
 from pysim.identify.greybox.residuals import Channel
@@ -59,6 +59,11 @@ class Floors:
                 found[channel] = floor
         return Floors(found)
 
+    @property
+    def sd(self) -> dict[Channel, float]:
+        """Standard deviation of the noise of each channel."""
+        return {channel: floor.sd for channel, floor in self.floors.items()}
+
     def over(self, fit: FinalFit) -> dict[Channel, float]:
         """Root mean square residual over the floor, per channel."""
         residuals = fit.candidate.residuals(fit.simulation)
@@ -77,6 +82,21 @@ class Floors:
         series = fit.candidate.residuals(fit.simulation).series
         sizes = [1.0 if name is None else self.floors[one.dataset, name].sd for one, name in series]
         return np.array(sizes)[of(fit).series]
+
+    def between(self, fit: FinalFit, other: FinalFit) -> float:
+        """Root mean square difference of two runs of one model, over the floors."""
+        return float(np.sqrt(np.mean(((of(fit).residual - of(other).residual) / self.rows(fit)) ** 2)))
+
+    def roughest(self, fit: FinalFit, error: float) -> FinalFit:
+        """The model by the roughest runs that differ from its own by less than this: costs of rougher ones jump by more
+        than a law or an effect gains."""
+        simulation = fit.simulation.rough()
+        while simulation.solver.rtol > fit.simulation.solver.rtol:
+            rough = begin(fit.candidate, fit.values, simulation, fit)
+            if rough.good and self.between(fit, rough) < error:
+                return rough
+            simulation = simulation.finer()
+        return fit
 
     def within(self, fit: FinalFit, factor: float) -> bool:
         """Whether every residual is within a factor of its floor."""

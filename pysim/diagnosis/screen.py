@@ -164,7 +164,7 @@ def _screened(
         scaled = _amounted(effect, tried, amount)
         start, gain = with_effect(present.values, effect, scaled), 0.5 * amount**2 * size
         yield Screened(candidate, start, tried, gain, left * before.level)
-        if _is_limit(effect) and milder is not None and point.cost > milder[0] and gain <= milder[1]:
+        if effect.limit and milder is not None and point.cost > milder[0] and gain <= milder[1]:
             return  # what limits more is farther from the measurements
         milder = point.cost, gain
 
@@ -195,10 +195,6 @@ def _span(found: Rows) -> Array:
     return np.asarray(u[:, sigma > EXACT * sigma[0]])
 
 
-def _is_limit(effect: Effect) -> bool:
-    return any(p.inverse for p in effect.strengths)
-
-
 def _signed(effect: Effect) -> bool:
     return any(p.min < (p.off or 0.0) for p in effect.strengths)
 
@@ -206,19 +202,19 @@ def _signed(effect: Effect) -> bool:
 def _values(effect: Effect, largest: float | None, sizes: Sizes) -> Iterator[dict[str, float]]:
     """Values of all its parameters: its strengths at each size, its shapes as declared."""
     declared = {p.name: p.default for p in effect.parameters}
-    limit = next((p for p in effect.strengths if p.inverse), None)
-    if limit is not None and largest:
+    limit = effect.limit
+    if limit and largest:
         for share in sizes.limits:
             yield {**declared, limit.name: _within(limit, 1 / (share * largest))}
         return
-    shares = sizes.limits_unknown if limit is not None else sizes.bypassed if effect.bypass else sizes.usual
+    shares = sizes.limits_unknown if limit else sizes.bypassed if effect.bypass else sizes.usual
     for share in shares:
         yield {**declared, **{p.name: _within(p, (p.off or 0.0) + share * p.nominal) for p in effect.strengths}}
 
 
 def _amounted(effect: Effect, tried: Mapping[str, float], amount: float) -> dict[str, float]:
     """At the amount that looked best, within what first order can tell; limits as they were tried."""
-    if _is_limit(effect):
+    if effect.limit:
         return dict(tried)
     amount = math.copysign(min(max(abs(amount), 0.2), 3.0), amount) if amount else 0.5
     scaled = {p.name: _within(p, (p.off or 0.0) + amount * (tried[p.name] - (p.off or 0.0))) for p in effect.strengths}

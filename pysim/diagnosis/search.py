@@ -19,9 +19,8 @@ from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
 from pysim.diagnosis.refit import FinalFit, begin, begin_anywhere, converged, race
 from pysim.diagnosis.screen import Screened, best_of_each, screen, screened
-from pysim.diagnosis.sensors import with_sensor_errors
 from pysim.diagnosis.settings import Settings
-from pysim.diagnosis.starts import Starts
+from pysim.diagnosis.starts import Starts, with_sensor_errors
 from pysim.identify.greybox import Simulation
 from pysim.identify.greybox.beginning import settled_initial_states
 from pysim.types import BadInput, Effect, Trial
@@ -152,19 +151,19 @@ class Search:
         return self._fine_enough(self._keep(self._once("base", found, candidate)))
 
     def _fine_enough(self, base: FinalFit) -> FinalFit:
-        """From now on runs are integrated so finely that their error is small beside the floor; the base with it."""
+        """The base, and from now on all runs, integrated so finely that their error is small beside the floor."""
         floors = self.floors.with_(base)
         for _ in range(self.settings.refinements):
             finer = self.fine.finer()
             other = begin(base.candidate, base.values, finer, base)
             if not other.good:
                 break
-            error = rivals.of(other).residual - rivals.of(base).residual
-            if np.sqrt(np.mean((error / floors.rows(base)) ** 2)) < self.settings.fine:
+            if floors.between(base, other) < self.settings.fine:
                 break
-            self.fine, self.rough = finer, finer.finer(1 / self.settings.rougher)
+            self.fine = finer
             base = self._fits[_key(base.candidate)] = converged(other)  # costs of rougher runs are no match for it
             floors = floors.with_(base)
+        self.rough = floors.roughest(base, self.settings.fine).simulation
         return base
 
     def _once(self, part: str, find: Callable[[], FinalFit], candidate: Candidate) -> FinalFit:
@@ -187,7 +186,7 @@ class Search:
             return ()
         left, count, found = rivals.of(fit), rivals.samples(fit), list[Detectable]()
         for one in table.looked:
-            if one.change.size != left.residual.size or any(p.inverse for p in one.effect.strengths):
+            if one.change.size != left.residual.size or one.effect.limit:
                 continue
             df, inflated = len(one.effect.parameters), rivals.effective(left, one.change)
             chance = self.settings.false_alarm / max(self.tried, 1)

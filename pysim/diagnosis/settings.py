@@ -65,10 +65,6 @@ class Settings:
         0.1, unit="1", meaning="error of the integration over the floor, above which it is refined",
         source="adds half a percent to what is left",
     )  # fmt: skip
-    rougher: float = setting(
-        30.0, unit="1", meaning="tolerance of candidates' runs over that of what is kept, once that was refined",
-        source="as between a fit's rough and fine search",
-    )  # fmt: skip
     refinements: int = setting(3, unit="1", meaning="tenfold refinements at most", source="to 1e-8, near rounding")
     unexplained: float = setting(
         0.5, unit="1", meaning="residual over the signal's standard deviation from which on no model is complete",

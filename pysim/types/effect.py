@@ -99,6 +99,11 @@ class Effect:
         """The parameters that make it vanish when all are at their off value."""
         return tuple(parameter for parameter in self.parameters if parameter.off is not None)
 
+    @property
+    def limit(self) -> EffectParameter | None:
+        """The strength that is one over the size of a limit; None where the effect limits nothing."""
+        return next((parameter for parameter in self.strengths if parameter.inverse), None)
+
     def is_special_case_of(self, other: Effect) -> bool:
         """Whether the other fills the same slot and declares all its parameters, by name and range, and more."""
         own, its = ({replace(p, description="") for p in one.parameters} for one in (self, other))

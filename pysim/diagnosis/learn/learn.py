@@ -14,10 +14,10 @@ from pysim.diagnosis.learn.curve import curve_basis
 from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, settled, started
 from pysim.diagnosis.learn.laws import Place, Terms, places
 from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, patient, screen, seen
-from pysim.diagnosis.refit import FinalFit, begin
+from pysim.diagnosis.left import Floors
+from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
-from pysim.identify.greybox.residuals import Channel
 from pysim.types import BadInput
 from pysim.types.answer import GainTest, Verdict
 
@@ -62,7 +62,7 @@ class Learner:
     Args:
         session: whose model; it must be able to compile laws.
         present: the model that lacks something, refitted.
-        floors: standard deviation of the noise of each channel.
+        floors: noise of each channel.
         tried: effects that were tried before, which count as choices.
         veto: see Veto.
         say: gets what is being done.
@@ -72,7 +72,7 @@ class Learner:
         self,
         session: Session,
         present: FinalFit,
-        floors: Mapping[Channel, float],
+        floors: Floors,
         tried: int,
         veto: Veto,
         say: Say,
@@ -80,10 +80,10 @@ class Learner:
     ) -> None:
         assert session.build_law is not None
         self._compile = session.build_law
-        self._session, self._present, self._floors, self._tried = session, present, floors, tried
+        self._session, self._present, self._floors, self._tried = session, present, floors.sd, tried
         self._veto, self._say, self._settings = veto, say, settings or LearnSettings()
         self._refused: dict[str, str] = {}
-        self._rough = begin(present.candidate, present.values, present.simulation.rough(), present)
+        self._rough = floors.roughest(present, session.settings.fine)
 
     def learn(self) -> Learning:
         """The best law and whether it is kept."""

@@ -150,3 +150,15 @@ def test_a_short_log_is_judged_beside_a_long_one_that_logs_more() -> None:
     found = follows(refitted(Models(given("axis", joined, ()))), joined, 24)
     assert found is not None
     assert found.share < 0.02
+
+
+def test_the_roughest_runs_are_as_rough_as_the_noise_forgives() -> None:
+    floors, own = Floors().with_(fit()), fit()
+    errors = {}
+    for forgiven in (math.inf, 0.1, 0.003, 0.0):
+        rough = floors.roughest(own, forgiven)
+        errors[rough.simulation.solver.rtol] = difference = floors.between(own, rough)
+        assert difference == pytest.approx(math.dist(of(own).residual, of(rough).residual) / NOISE / 40, rel=0.1)
+        assert difference < forgiven or rough is own
+    assert max(errors) == own.simulation.rough().solver.rtol
+    assert len(errors) > 2
