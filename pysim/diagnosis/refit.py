@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnosis.candidate import Candidate, Values
+from pysim.diagnosis.candidate import Candidate, Key, Values
 from pysim.diagnosis.secants import Secants
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import GaussNewton, Nuisance, Point, Simulation
@@ -72,16 +72,29 @@ class FinalFit:
         """How large each of the candidate's sensor errors is."""
         return tuple(zip(self.candidate.nuisances, self.point.carried.nuisances.tolist(), strict=True))
 
-    def believable(self, label: str, most: float) -> bool:
-        """Whether a label names an effect that is not at the end of what its class calls plausible, or a sensor's error
-        within so many standard deviations of its prior."""
-        ends = dict(zip(self.candidate.keys, at_bounds(self.candidate.space, self.point), strict=True))
-        own = [(p, ends[label, p.name]) for e in self.candidate.effects if e.name == label for p in e.strengths]
-        if any(end and p.off != (p.min if end == "lower" else p.max) for p, end in own):
+    def believable(self, label: str, settings: Settings) -> bool:
+        """Whether a label names an effect that would not end far beyond what its class calls plausible, or a sensor's
+        error within what its prior does."""
+        own = [(e.name, p) for e in self.candidate.effects if e.name == label for p in e.strengths]
+        if any(self._is_beyond((name, p.name), p.off or 0.0, settings.beyond) for name, p in own):
             return False
         labels = self.candidate.labels[len(self.candidate.effects) :]
         sizes = zip(labels, self.sensor_errors, strict=True)
-        return all(abs(size) <= most * error.prior_sd for name, (error, size) in sizes if name == label)
+        return all(abs(size) <= settings.believable * error.prior_sd for name, (error, size) in sizes if name == label)
+
+    def _is_beyond(self, key: Key, off: float, share: float) -> bool:
+        """Whether a strength is at its far bound, and would go on by more than a share of itself without it, to first
+        order."""
+        x, own = self.point.x, self.candidate.keys.index(key)
+        size = float(x[own] - self.candidate.at({**self.values, key: off})[own])
+        lower, upper = self.candidate.space.bounds()
+        left = float((upper if size > 0 else lower)[own] - x[own])
+        if abs(left) > share * abs(size):
+            return False
+        ends = at_bounds(self.candidate.space, self.point)
+        free = [k for k, end in enumerate(ends) if k == own or not end]
+        step = np.linalg.lstsq(self.point.jacobian[:, free], -self.point.residual, rcond=None)[0]
+        return (float(step[free.index(own)]) - left) * math.copysign(1.0, size) > share * abs(size)
 
     @property
     def expected(self) -> float:

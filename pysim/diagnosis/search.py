@@ -119,6 +119,7 @@ class Search:
         self.models, self.rough, self.fine, self.settings, self.say = models, fine.rough(), fine, settings, say
         self._checkpoint = checkpoint
         self.floors, self.tried = Floors(), 0
+        self.beyond: set[str] = set()  # effects that gain, and would end beyond their bounds
         self._tables: dict[frozenset[str], Table] = {}
         self._fits: dict[tuple[frozenset[str], bool], FinalFit] = {}
         self._unfitted: dict[tuple[frozenset[str], bool], tuple[FinalFit, rivals.Rows | None, float]] = {}
@@ -317,8 +318,11 @@ class Search:
         have, compared = set(present.candidate.labels), list[Compared]()
         for fit in fits:
             added = next(label for label in fit.candidate.labels if label not in have)
-            if fit.believable(added, self.settings.believable):
-                compared.append(Compared(fit, added, self.test(starts.like(fit), fit)))
+            one = Compared(fit, added, self.test(starts.like(fit), fit))
+            if fit.believable(added, self.settings):
+                compared.append(one)
+            elif one.test.verdict is Verdict.BETTER and added in fit.candidate.places:
+                self.beyond.add(added)
         return Table(present.candidate.labels, self.floors.potential(present), self._ordered(compared), tried)
 
     def _beside(self, fit: FinalFit, transient: bool) -> FinalFit:
@@ -398,7 +402,7 @@ class Search:
         test = self.test(smaller, final, choices)
         if test.verdict is not Verdict.BETTER:
             return test
-        if not final.believable(name, self.settings.believable):
+        if not final.believable(name, self.settings):
             return replace(test, verdict=Verdict.VETOED)
         return self.vetoed(smaller, final, test)
 

@@ -86,6 +86,10 @@ class Settings:
         4.0, unit="1", meaning="standard deviations of its prior beyond which an error is none of a sensor",
         source="Box 1980, Journal of the Royal Statistical Society A 143:383; a chance of 6e-5",
     )  # fmt: skip
+    beyond: float = setting(
+        0.05, unit="1", meaning="share of its size by which an effect may want to pass its bound and still be believed",
+        source="bounds of classes are round numbers, or ends that a law has by itself, as a share of 1",
+    )  # fmt: skip
     max_effects: int = setting(
         4, unit="1", meaning="effects in a model at most", source="more have no name to a reader"
     )

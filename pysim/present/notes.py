@@ -29,6 +29,7 @@ _WORDS = {
     NoteCode.NOT_SIMULATED: "{record} could not be simulated: {reason}",
     NoteCode.NOT_TRIED: "{effect} was not tried: {reason}.",
     NoteCode.HELD: "The data do not determine {parameter}; it was held at its value, and the intervals hold for that.",
+    NoteCode.BEYOND_BOUND: "{effect} would end beyond its bounds and is not named: widen them where it may go so far.",
     NoteCode.AT_BOUND: (
         "{parameter} stopped at its bound ({shown}): widen it if values beyond make sense, or fix the parameter."
     ),

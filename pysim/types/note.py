@@ -23,6 +23,7 @@ class NoteCode(Enum):
     NOT_TRIED = "not_tried"  # effect, reason (a code): it has no slot, does not compile, disturbs the others
     HELD = "held"  # parameter: the data do not determine it, intervals hold it where it stands
     AT_BOUND = "at_bound"  # parameter, bound, value, unit
+    BEYOND_BOUND = "beyond_bound"  # effect: it gains, and is not named since it would end beyond its bounds
     POOR_FIT = "poor_fit"  # signal, factor: its residual over its noise
     INTERCHANGEABLE = "interchangeable"  # parameter -> exponent, and "@spread": the data do not tell them apart
     CORRELATED = "correlated"  # first, second, correlation: two estimates that are hardly told apart

@@ -5,13 +5,14 @@ from functools import cache
 
 import pytest
 
+from pysim.diagnosis import rank
 from pysim.diagnosis.candidate import Models, Values
 from pysim.diagnosis.refit import FinalFit, Runner, advance, begin, converged, race
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox.optimiser import State
 from pysim.identify.greybox.residuals import failed_point
 from pysim.identify.greybox.runs import Failure
-from pysim.types import FitOutcome, Outcome
+from pysim.types import FitOutcome, NoteCode, Outcome
 from tests.pysim.diagnosis.plants import FINE, catalogue, given, measured, refitted
 
 ROUGH = FINE.rough()
@@ -98,8 +99,21 @@ def test_a_search_whose_steps_became_too_short_begins_anew_where_it_ended() -> N
     assert begun.point.cost - converged(begun).point.cost > 10
 
 
-def test_an_effect_at_the_end_of_its_bounds_is_not_believed() -> None:
-    most = catalogue("mass")["mass.friction"].strengths[0].max
-    within, beyond = (start("mass.friction", values={("mass.friction", "F_c"): size}) for size in (0.3, most))
-    assert within.believable("mass.friction", 4.0)
-    assert not beyond.believable("mass.friction", 4.0)
+@pytest.mark.parametrize(("most", "believed"), [(5.0, True), (0.295, True), (0.2, False)])
+def test_an_effect_that_would_end_far_beyond_its_bound_is_not_believed(most: float, believed: bool) -> None:
+    """Its true size is 0.3 N."""
+    friction = catalogue("mass")["mass.friction"]
+    narrow = replace(friction, parameters=tuple(replace(p, max=min(p.max, most)) for p in friction.parameters))
+    fit = converged(begin(models().of([narrow]), base().values, FINE))
+    assert fit.values["mass.friction", "F_c"] == pytest.approx(min(0.3, most), abs=0.01)
+    assert fit.believable("mass.friction", Settings()) == believed
+
+
+def test_an_effect_that_is_not_believed_is_told() -> None:
+    friction, drag = (catalogue("mass")[name] for name in ("mass.friction", "mass.drag"))
+    narrow = replace(friction, parameters=tuple(replace(p, max=min(p.max, 0.2)) for p in friction.parameters))
+    found = rank(replace(models().session, catalogue=(narrow, drag)))
+    assert [note.values["effect"] for note in found.notes if note.code is NoteCode.BEYOND_BOUND] == ["mass.friction"]
+    assert ("mass.friction",) not in {one.effects for one in found.rivals if one.refitted}
+    told = rank(replace(models().session, catalogue=(friction, drag)))
+    assert NoteCode.BEYOND_BOUND not in {note.code for note in told.notes}

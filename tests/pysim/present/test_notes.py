@@ -18,6 +18,7 @@ VALUES = {
     NoteCode.NOT_TRIED: {"effect": "axis.friction", "reason": "no slot takes it"},
     NoteCode.HELD: {"parameter": "m"},
     NoteCode.AT_BOUND: {"parameter": "p_0", "bound": 2e5, "value": 2e5, "unit": "Pa"},
+    NoteCode.BEYOND_BOUND: {"effect": "mass.friction"},
     NoteCode.POOR_FIT: {"signal": "x", "factor": 8.17},
     NoteCode.INTERCHANGEABLE: {"m": 1.0, "k": 1.0, "@spread": 0.4},
     NoteCode.CORRELATED: {"first": "m", "second": "k", "correlation": 0.991},
