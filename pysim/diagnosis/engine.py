@@ -240,7 +240,13 @@ def _with_law(found: Found, models: Named, law: LawFit) -> tuple[Found, Named]:
 
 def _learned(session: Session, search: Search, found: Found) -> Learning:
     """The best law beside the final model."""
-    learning = Learner(session, found.final, found.floors, search.tried, search.vetoed, search.say.doing).learn()
+    rest = session, found.final, found.floors, search.tried, search.vetoed, search.say.doing
+    learning = Learner(*rest).learn()
+    if session.has_clock and (learning.law is None or not search.is_done(learning.law.fit)):
+        present = search.beside(found.final, transient=True)
+        drift = Learner(session, present, *rest[2:], over_time=True).learn()
+        if drift.law is not None and (learning.law is None or drift.test.penalised > learning.test.penalised):
+            learning = drift
     if learning.law is not None and found.final.candidate.effects:
         final = found.final
         law = without_the_unseated(

@@ -64,6 +64,12 @@ class Session:
         """What is fitted and what may choose."""
         return self.data.dataset
 
+    @property
+    def has_clock(self) -> bool:
+        """Whether every log that is fitted says when it began, and not all at once."""
+        begins = {record.begin for record in self.dataset.logs() if record.use == "fit"}
+        return len(begins) > 1 and None not in begins
+
     def unseen_beside(self, model: Model, space: ParameterSpace) -> Problem:
         """The logs that nothing has looked at, beside a model."""
         assert self.unseen is not None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
 
 from pysim.io.limits import LIMITS
@@ -108,8 +108,19 @@ def _read(folder: Path, *, keep_going: bool, missing: bool = False) -> Described
             refused.append((section.source(), str(error)))
     signals = tuple(signal_in_si(signal) for signal in written.values())
     name, about, system = head.text("name"), head.text("description", "-"), head.text("system", "-")
-    raw = Dataset(name, about, system, signals, tuple(records))
+    raw = Dataset(name, about, system, signals, _from_the_first(records))
     return Described(raw, steps, {signal.name: signal.unit for signal in written.values()}, tuple(refused))
+
+
+_A_DATE = 1e6  # s, below which a double has 1e-10 s
+
+
+def _from_the_first(records: Sequence[MeasuredRecord]) -> tuple[MeasuredRecord, ...]:
+    """Records whose clock begins with the first of them where it was a date: its seconds round a run's steps away."""
+    first = min((record.begin for record in records if record.begin is not None), default=0.0)
+    if abs(first) < _A_DATE:
+        return tuple(records)
+    return tuple(record if record.begin is None else replace(record, begin=record.begin - first) for record in records)
 
 
 def _counted(section: Section, before: int, log: MeasuredRecord) -> int:

@@ -63,8 +63,8 @@ class MeasuredRecord:
         command: name of the input that the three speak of; empty where a log has several inputs and does not say.
         initial: what is known of the plant at a log's first sample. "rest": it stood still at the first input.
             "estimate": nothing. None: it was near rest, as far as the data do not say otherwise.
-        begin: s, of a log's first row on a clock that all records share, so that slow drift can be seen; None where
-            not known.
+        begin: s, of a log's first row on a clock that all records share, so that slow drift can be seen: then the
+            model's `time` is this clock. None where not known.
     """
 
     source: str

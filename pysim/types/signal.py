@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -122,6 +122,10 @@ class Signal:
         starts = np.union1d(self.starts, other.starts)
         (cubics, sines), (more, waves) = self._pieces_at(starts), other._pieces_at(starts)
         return Signal(starts, cubics + more, np.concatenate([sines, waves], axis=1))
+
+    def later(self, by: float) -> Signal:
+        """The same so many s later."""
+        return replace(self, starts=self.starts + by)
 
     def times(self, factor: float) -> Signal:
         """The signal so many times as large."""

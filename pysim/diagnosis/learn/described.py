@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnosis.learn.basis import Smoothness, bends, lines, missed
-from pysim.diagnosis.learn.laws import Law
+from pysim.diagnosis.learn.laws import TIME, Law
 from pysim.diagnosis.learn.learn import Learning
 from pysim.types import Model
 from pysim.types.answer import LearnedLaw
@@ -74,7 +74,7 @@ def _law(law: Law, model: Model, knots: Array, values: Array) -> LearnedLaw:
     if factor and not law.is_sign:
         unit = quotient(unit, model[factor].unit or "1")
     empty = np.zeros((knots.size, knots.size))
-    argument_unit = model[argument].unit or "1"
+    argument_unit = "s" if argument == TIME else model[argument].unit or "1"
     return LearnedLaw(
         law.place.name, law.factor, argument, knots, values, empty, 0.0, argument_unit, unit, sign_width=law.width
     )

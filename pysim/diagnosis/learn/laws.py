@@ -1,9 +1,10 @@
 """Which laws may be missing where, and what is compiled for them.
 
 A law is `factor*h(argument)`, added to what a slot gives. h is the curve of `curve.py`: straight between its knots but
-for rounded corners, constant beyond them. `argument` is a variable of the slot ("force.x") or of the model; `factor` is
-"" for 1, "v" for a variable of the slot by its own name there, "sign(v)" for a smooth sign. In a slot with two sides,
-`q1` over `p1` and `q2` over `p2`, both have the same curve; the law is named by its first side.
+for rounded corners, constant beyond them. `argument` is a variable of the slot ("force.x") or of the model, or `time`
+on the clock of all records; `factor` is "" for 1, "v" for a variable of the slot by its own name there, "sign(v)" for a
+smooth sign. In a slot with two sides, `q1` over `p1` and `q2` over `p2`, both have the same curve; the law is named by
+its first side.
 
 One model is compiled for each place. Parameters of it choose argument and factor by weights, 1 of the chosen and 0 of
 the others, and hold knots and coefficients: no law and no other set of knots has to be compiled again. (Slopes by the
@@ -25,6 +26,8 @@ from pysim.effects import Slot
 from pysim.types import Model
 
 Array = NDArray[np.float64]
+
+TIME = "time"  # of the model, which is that of the clock of all records
 
 
 class Term(Protocol):
@@ -254,15 +257,15 @@ def _of_state(k: int, model: Model) -> Place:
     others = [name for name in model.abilities.states if depends is None or name in depends] or [state]
     own = tuple(others)
     side = Side(state, "", own, ("",) * len(own))
-    return Place(f"der({state})", f"law{k + 1}", (side,), _inputs(model))
+    return Place(f"der({state})", f"law{k + 1}", (side,), (*_inputs(model), TIME))
 
 
 def _outside(slots: Sequence[Slot], model: Model, sides: Sequence[Side]) -> tuple[str, ...]:
-    """Inputs, and states that are not some slot's own memory: none answers to a term at once."""
+    """Time, inputs, and states that are not some slot's own memory: none answers to a term at once."""
     inner = tuple(f"{slot.name}." for slot in slots)
     states = [name for name in model.abilities.states if not name.startswith(inner)]
     own = {name for side in sides for name in side.own}
-    return tuple(name for name in (*states, *_inputs(model)) if name not in own)
+    return tuple(name for name in (*states, *_inputs(model), TIME) if name not in own)
 
 
 def _inputs(model: Model) -> tuple[str, ...]:

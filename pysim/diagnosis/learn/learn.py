@@ -12,7 +12,7 @@ from pysim.diagnosis import rivals
 from pysim.diagnosis.learn.basis import closer
 from pysim.diagnosis.learn.curve import curve_basis
 from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, settled, started
-from pysim.diagnosis.learn.laws import Place, Terms, places
+from pysim.diagnosis.learn.laws import TIME, Place, Terms, places
 from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, patient, screen, seen
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.refit import FinalFit
@@ -66,6 +66,7 @@ class Learner:
         tried: effects that were tried before, which count as choices.
         veto: see Veto.
         say: gets what is being done.
+        over_time: whether laws over time are tried, and no others; the model is then compared by transients.
     """
 
     def __init__(
@@ -77,12 +78,15 @@ class Learner:
         veto: Veto,
         say: Say,
         settings: LearnSettings | None = None,
+        *,
+        over_time: bool = False,
     ) -> None:
         assert session.build_law is not None
         self._compile = session.build_law
         self._session, self._present, self._floors, self._tried = session, present, floors.sd, tried
         self._veto, self._say, self._settings = veto, say, settings or LearnSettings()
         self._refused: dict[str, str] = {}
+        self._over_time = over_time
         self._rough = floors.roughest(present, session.settings.fine)
 
     def learn(self) -> Learning:
@@ -94,6 +98,7 @@ class Learner:
         models = {place.key: model for place in where if (model := self._model(place, self._settings.knots))}
         signals = seen(self._present, self._present.candidate.model, [one.place for one in models.values()])
         laws = distinct([one.place for one in models.values()], signals) if signals else []
+        laws = [law for law in laws if (law.argument == TIME) == self._over_time]
         self._say(f"trying {len(laws)} laws at {len(models)} places")
         ranked = screen(self._rough, models, laws, signals, self._floors)
         chosen = [one for one in ranked if one.score > 0 and one.score >= self._settings.near * ranked[0].score]

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.learn.basis import Curve, knots, solve
-from pysim.diagnosis.learn.laws import Law, Place, samples
+from pysim.diagnosis.learn.laws import TIME, Law, Place, samples
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.settings import LearnSettings
@@ -135,7 +135,7 @@ def _with_coefficients(
 
 def seen(present: FinalFit, model: Model, places: Sequence[Place]) -> dict[str, Array]:
     """Samples (n,) of every variable that a law may depend on, along the fitted model's runs; none that failed."""
-    names = {name for place in places for side in place.sides for name in (*side.own, *place.outside)}
+    names = {name for place in places for side in place.sides for name in (*side.own, *place.outside)} - {TIME}
     residuals = present.candidate.residuals(present.simulation)
     overrides = present.candidate.held(present.values).fixed
     states = present.point.carried.states or (None,) * len(residuals.runs)
@@ -146,7 +146,10 @@ def seen(present: FinalFit, model: Model, places: Sequence[Place]) -> dict[str, 
         replace(r, times=r.times[:: math.ceil(r.times.size / _SAMPLES)], record=tuple(sorted(names))) for r in runs
     ]
     records = [r for r in simulate_many(model, looked, solver=Rodas(1e-3, 1e-3)) if r.outcome is Outcome.DONE]
-    return {name: np.concatenate([r[name] for r in records]) for name in names} if records else {}
+    if not records:
+        return {}
+    found = {name: np.concatenate([r[name] for r in records]) for name in names}
+    return {**found, TIME: np.concatenate([r.time for r in records])}
 
 
 def patient(fit: FinalFit) -> Simulation:

@@ -53,11 +53,16 @@ class Context:
         return self.model.measured(self.dataset.signal(column), f"data set {self.dataset.name!r}").name
 
     def experiment(
-        self, times: Array, outputs: tuple[str, ...], commands: Mapping[str, Signal], start: float
+        self, times: Array, outputs: tuple[str, ...], commands: Mapping[str, Signal], start: float, later: float = 0.0
     ) -> Experiment:
-        """A run of the model, everything by the model's names."""
-        names = tuple(self.variable(column) for column in outputs)
-        return Experiment(times, names, commands, self.overrides, start, rates=self.model.rate_inputs(commands))
+        """A run of the model, everything by the model's names.
+
+        Args:
+            later: s by which all of it is moved, so that the model's `time` is the clock of all records.
+        """
+        names, commands = map(self.variable, outputs), {name: one.later(later) for name, one in commands.items()}
+        rates = self.model.rate_inputs(commands)
+        return Experiment(times + later, tuple(names), commands, self.overrides, start + later, rates=rates)
 
     def first_value(self, name: str) -> float:
         """An input's start value, at which the model starts."""

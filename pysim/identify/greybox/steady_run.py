@@ -29,11 +29,13 @@ def steady_run(
     outputs: tuple[str, ...],
     others: Mapping[str, Signal],
     settle: float,
+    middle: float | None = None,
 ) -> Run:
     """The orbit of a stepped sine, and the same test as a transient, both recorded over one period from phase zero.
 
     Args:
         settle: s of the sine that the transient has for itself at least.
+        middle: of what is compared, s on the clock of all records; None where not known.
     """
     plan, period = context.treatment.sine, 1 / sine.frequency
     name = context.variable(column)
@@ -48,7 +50,8 @@ def steady_run(
         approached, start = from_rest(swing, 0.0, context.first_value(name), rest.times(context.settling))
     settling = max(plan.settle_periods, int(np.ceil(settle / period - 1e-9)))
     times = (settling + np.arange(plan.points) / plan.points) * period
-    transient = context.experiment(times, outputs, {**inputs, name: approached}, start)
+    later = 0.0 if middle is None else middle - float(np.mean(times))
+    transient = context.experiment(times, outputs, {**inputs, name: approached}, start, later)
     if context.treatment.steady == "transient":
         return Run(source, transient)
     commands = {**inputs, name: swing}

@@ -242,7 +242,8 @@ def swing(context: Context, record: MeasuredRecord, index: int) -> Swing:
     log = _settled(record.source, kept_columns(data, outputs), sine, noise, context.treatment.sine, index)
     others = {c: Signal.constant(float(np.mean(data[c]))) for c in columns if c != swinging}
     settle = float(log.measured.time[0]) - sine.onset
-    return Swing(record, log, steady_run(context, record.source, swinging, sine, outputs, others, settle))
+    middle = None if record.begin is None else record.begin + float(np.mean(log.measured.time) - data.time[0])
+    return Swing(record, log, steady_run(context, record.source, swinging, sine, outputs, others, settle, middle))
 
 
 def _settled(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan, index: int) -> SineLog:

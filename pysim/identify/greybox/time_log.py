@@ -184,6 +184,7 @@ def _log(context: Context, record: MeasuredRecord, index: int) -> TimeLog:
     data = record.data
     assert isinstance(data, Record)
     measured, start, rest = kept_columns(data, outputs), float(data.time[0]), context.treatment.rest
+    later = 0.0 if record.begin is None else record.begin - start
     commands, begin = {}, start
     started = record.source in context.started or None in context.started
     own_start = context.first_value
@@ -203,8 +204,8 @@ def _log(context: Context, record: MeasuredRecord, index: int) -> TimeLog:
         full_scale=tuple(full_scale(context.dataset.signal(n), measured[n]) for n in outputs),
         run=Run(
             record.source,
-            context.experiment(data.time, outputs, commands, begin),
-            begins=start,
+            context.experiment(data.time, outputs, commands, begin, later),
+            begins=start + later,
             measured=measured.values,
         ),
         index=index,
