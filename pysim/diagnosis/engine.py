@@ -240,15 +240,15 @@ def _with_law(found: Found, models: Named, law: LawFit) -> tuple[Found, Named]:
 
 def _learned(session: Session, search: Search, found: Found) -> Learning:
     """The best law beside the final model."""
-    rest = session, found.final, found.floors, search.tried, search.vetoed, search.say.doing
-    learning = Learner(*rest).learn()
+    learner = partial(
+        Learner, session, floors=found.floors, tried=search.tried, veto=search.vetoed, say=search.say.doing
+    )
+    learning = learner(present=found.final).learn()
     if session.has_clock and (learning.law is None or not search.is_done(learning.law.fit)):
-        present = search.beside(found.final, transient=True)
-        drift = Learner(session, present, *rest[2:], over_time=True).learn()
-        if drift.law is not None and (learning.law is None or drift.test.penalised > learning.test.penalised):
-            learning = drift
+        drift = learner(present=search.beside(found.final, transient=True), over_time=True).learn()
+        learning = max(learning, drift, key=lambda one: one.worth)
     if learning.law is not None and found.final.candidate.effects:
-        final = found.final
+        final = search.beside(found.final, learning.law.fit.candidate.transient)
         law = without_the_unseated(
             session,
             learning.law,

@@ -108,19 +108,11 @@ def _read(folder: Path, *, keep_going: bool, missing: bool = False) -> Described
             refused.append((section.source(), str(error)))
     signals = tuple(signal_in_si(signal) for signal in written.values())
     name, about, system = head.text("name"), head.text("description", "-"), head.text("system", "-")
-    raw = Dataset(name, about, system, signals, _from_the_first(records))
-    return Described(raw, steps, {signal.name: signal.unit for signal in written.values()}, tuple(refused))
-
-
-_A_DATE = 1e6  # s, below which a double has 1e-10 s
-
-
-def _from_the_first(records: Sequence[MeasuredRecord]) -> tuple[MeasuredRecord, ...]:
-    """Records whose clock begins with the first of them where it was a date: its seconds round a run's steps away."""
     first = min((record.begin for record in records if record.begin is not None), default=0.0)
-    if abs(first) < _A_DATE:
-        return tuple(records)
-    return tuple(record if record.begin is None else replace(record, begin=record.begin - first) for record in records)
+    if abs(first) >= LIMITS.clock:  # a date
+        records = [r if r.begin is None else replace(r, begin=r.begin - first) for r in records]
+    raw = Dataset(name, about, system, signals, tuple(records))
+    return Described(raw, steps, {signal.name: signal.unit for signal in written.values()}, tuple(refused))
 
 
 def _counted(section: Section, before: int, log: MeasuredRecord) -> int:

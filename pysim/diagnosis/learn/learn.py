@@ -55,6 +55,11 @@ class Learning:
         """The one that stood the test; None where nothing is added."""
         return self.fits[0] if self.test is not None and self.test.verdict is Verdict.BETTER else None
 
+    @property
+    def worth(self) -> float:
+        """Penalised gain of that law, nats; minus infinity without one."""
+        return self.test.penalised if self.test is not None and self.law is not None else -math.inf
+
 
 class Learner:
     """Learns laws beside one model.

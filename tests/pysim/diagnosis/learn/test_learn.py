@@ -6,11 +6,12 @@ from functools import cache
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from scipy.integrate import odeint
 
 from pysim.diagnosis import Session, diagnose, learn
 from pysim.types import NoteCode
 from pysim.types.answer import Diagnosis, LearnedLaw, Verdict
-from tests.known_answers.plants import Values
+from tests.known_answers.plants import PLANTS, Command, Values, wave
 from tests.pysim.diagnosis.plants import given, measured
 
 DESIGN = {"m": 1.05, "d": 1.8, "k": 42.0}
@@ -24,6 +25,23 @@ def opened(effects: dict[str, Values], names: list[str] | None = None) -> Sessio
 def damped() -> Diagnosis:
     """A damper that is stronger towards the ends of the way; the catalogue has another damping."""
     return diagnose(opened({"damper": {"d_2": 60.0}}, ["mass.drag"]))
+
+
+def drifting(clock: bool) -> Session:
+    """A damper that weakens by 0.02 N.s/m a second, whether or not its logs say when they began."""
+    data, rng = measured("mass", {}, DESIGN, fit=(1, 2), validate=(3,), length=8.0), np.random.default_rng(5)
+    records = []
+    for record, seed, begin in zip(data.records, (1, 2, 3), (0.0, 50.0, 25.0), strict=True):
+        push, time = wave(seed, PLANTS["mass"].peak, PLANTS["mass"].band), record.data.time
+
+        def slope(state: NDArray[np.float64], t: float, push: Command = push, begin: float = begin) -> list[float]:
+            x, v = state.tolist()
+            return [v, (push(t) - (3.0 - 0.02 * (begin + t)) * v - DESIGN["k"] * x) / DESIGN["m"]]
+
+        place = odeint(slope, [0.0, 0.0], time, rtol=1e-9, atol=1e-12)[:, 0] + rng.normal(0, 1e-3, time.size)
+        values = np.column_stack([[push(t) for t in time.tolist()], place])
+        records.append(replace(record, data=replace(record.data, values=values), begin=begin if clock else None))
+    return given("mass", replace(data, records=tuple(records)), [], initial="near rest")
 
 
 def within_the_band(law: LearnedLaw, truth: NDArray[np.float64]) -> float:
@@ -60,6 +78,25 @@ def test_the_error_on_logs_that_were_not_fitted_falls_to_the_noise() -> None:
     assert after == found.history[-1].validate < 1.1
     assert before is not None
     assert before > 4
+
+
+def test_what_drifts_is_learned_over_time_where_the_logs_say_when_they_began() -> None:
+    session = drifting(clock=True)
+    assert session.has_clock
+    found = learn(session)
+    (law,) = found.learned
+    assert (law.slot, law.factor, law.argument, law.argument_unit) == ("force", "v", "time", "s")
+    assert within_the_band(law, 0.02 * law.knots) > 0.9
+    assert law.knots[-1] - law.knots[0] > 50
+    before, after = found.history[-2].validate, found.history[-1].validate
+    assert before is not None
+    assert after is not None
+    assert after < 1.1 < 0.5 * before
+
+
+def test_without_a_clock_no_law_over_time_can_be_told() -> None:
+    assert not drifting(clock=False).has_clock
+    assert not opened({}).has_clock
 
 
 def test_an_effect_that_the_law_makes_needless_loses_its_name_and_the_parameters_are_the_models_own() -> None:

@@ -1,11 +1,12 @@
 """How long a model takes to come to rest, against a closed form."""
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from pysim.identify.greybox import Treatment
+from pysim.identify.greybox import Treatment, problem
 from pysim.identify.greybox.context import Context
 from pysim.types import Model
 from tests.pysim.identify.greybox import measurements as m
@@ -18,3 +19,20 @@ def test_a_lag_comes_to_rest_in_some_time_constants_however_slow_it_is(lag: Mode
     data = m.dataset([m.log(time, np.ones(time.size), np.ones(time.size))])
     context = Context(lag, data, {"T": constant}, ("y",), {"y": 1.0}, Treatment(), (None,))
     assert context.settling == pytest.approx(constant * math.log(100), rel=0.06)
+
+
+def test_the_time_of_a_run_is_the_clock_of_all_records(lag: Model) -> None:
+    """What does not depend on time answers as it did, whenever the clock says that it began."""
+    time = 3.0 + np.arange(0, 3, 0.02)
+    residuals = {}
+    for begin in (None, 1000.0):
+        record = replace(m.log(time, np.sin(time), np.zeros(time.size)), begin=begin)
+        found = problem(lag, [m.dataset([record])], (), fixed={"T": 0.2})
+        (run,) = found.residuals().runs
+        first = time[0] if begin is None else begin
+        assert run.begins == first
+        assert run.experiment.times == pytest.approx(time - time[0] + first, abs=1e-9)
+        point = found.residuals().evaluate(lag, found.space, np.zeros(0), jacobian=False)
+        residuals[begin] = point.residual * point.levels[0]
+    assert residuals[1000.0] == pytest.approx(residuals[None], abs=1e-6)
+    assert np.max(np.abs(residuals[None])) > 0.5
