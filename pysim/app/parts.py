@@ -231,6 +231,13 @@ def button(words: str, action: Callable[[], Any], kind: str = "", *, off: str = 
     return element.on("click", lambda: action())
 
 
+def entry(label: str, value: object, put: Callable[[str], Any], props: str = "type=text") -> Element:
+    """A field; what is written there is handed over when it is left."""
+    field = ui.element("input").props(props)
+    field._props["aria-label"], field._props["value"] = label, value
+    return field.on("change", lambda event: put(str(event.args)), js_handler="(e) => emit(e.target.value)")
+
+
 def head(title: str, lead: str = "") -> None:
     """Of a page."""
     text("h1", title)
@@ -258,10 +265,16 @@ def say(words: str, *, bad: bool = False) -> None:
     ui.notify(words, position="bottom-left", multi_line=True, **kind)  # type: ignore[arg-type]
 
 
-def live(key: Callable[[], object], build: Callable[[], Any], kind: str = "") -> Element:
-    """A part that is built anew whenever its key changes, in every tab."""
+def live(
+    key: Callable[[], object], build: Callable[[], Any], kind: str = "", known: list[object] | None = None
+) -> Element:
+    """A part that is built anew whenever its key changes, in every tab.
+
+    Args:
+        known: holds the key of what is shown, for a part that changes itself.
+    """
     place = box(kind) if kind else ui.element("div")
-    known: list[object] = []
+    known = [] if known is None else known
 
     def look() -> None:
         now = key()

@@ -9,7 +9,7 @@ from nicegui import ui
 
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
-from pysim.app.pages.common import attempt, busy, ended, nothing, start
+from pysim.app.pages.common import attempt, busy, ended, nothing, played, start
 from pysim.app.pages.moving import moving
 from pysim.app.parts import box, button, card, curve, head, live, text
 
@@ -70,7 +70,10 @@ def _verdict(answer: Answer) -> None:
         for group in answer.data["confusable"]:
             text("p", f"These data cannot tell {' and '.join(group)} apart.", "note")
         if "next_test_about" in answer.data:
-            text("p", f"The test that would: {answer.data['next_test_about']}", "note")
+            with box("note row"):
+                text("span", f"The test that would: {answer.data['next_test_about']}")
+                if "plan" in answer.data["files"]:
+                    played(answer)
 
 
 def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups: list[set[str]]) -> None:

@@ -10,12 +10,10 @@ from nicegui import ui
 
 from pysim.app.description import moved, put_steps, read_description
 from pysim.app.desk import Desk
-from pysim.app.pages.common import attempt, nothing
+from pysim.app.pages.common import attempt, attempted, nothing, record_chart
 from pysim.app.pages.data import change
-from pysim.app.parts import Chart, Choice, box, button, card, head, live, say, text
-from pysim.app.records import MOST, measured_overlay
-from pysim.app.worker import Ended
-from pysim.identify.data_check import DataCheck
+from pysim.app.parts import Choice, box, button, card, entry, head, live, text
+from pysim.app.records import measured_overlay
 from pysim.io.prepare import Step, call, step_of, values_of
 from pysim.io.toml_section import Section
 from pysim.present.data_check.words import cures, sentence
@@ -57,13 +55,9 @@ class _View:
         self._window: tuple[float, float] | None = None
         self._signal, self._number = _ALL, ""
 
-    @property
-    def _check(self) -> DataCheck | None:
-        return self._desk.loaded.check if self._desk.loaded else None
-
     def lights(self) -> None:
         """A light per log, and what cures what was found."""
-        check = self._check
+        check = self._desk.check
         if check is None or not check.dataset.logs():
             nothing("No logs yet", "Drop logs on the page Data.")
             return
@@ -71,7 +65,8 @@ class _View:
             off = self._desk.model_busy or self._desk.runner.running is not None or self._desk.model is None
             words = "Name a model, and wait until nothing runs" if off else ""
             with box("row"):
-                button("Check signs and units with the model", self._checked, "small", off=words)
+                check_ = lambda: attempted(self._desk.check_with_model())  # noqa: E731
+                button("Check signs and units with the model", check_, "small", off=words)
             for k, log in enumerate(check.dataset.logs()):
                 found = [one for one in check.findings if one.source == log.source]
                 with box("row"):
@@ -82,25 +77,18 @@ class _View:
                     for step in cures(found):
                         button(call(step), partial(self._add, step), "small")
 
-    async def _checked(self) -> None:
-        try:
-            await self._desk.check()
-        except (BadInput, Ended) as error:
-            say(str(error) or "the process that simulates broke down; press again", bad=True)
-
     def _look_at(self, number: int) -> None:
         self.log, self._window = number, None
 
     def look(self) -> None:
         """The log that was picked, as it was logged and as the steps make it."""
-        check = self._check
+        check = self._desk.check
         if check is None or not check.dataset.logs():
             return
         logs = check.dataset.logs()
         self.log = min(self.log, len(logs) - 1)
         log = logs[self.log]
         overlay = measured_overlay(log, self._desk.raw_of(log))
-        series = {"url": f"/series?of=prepared&record={self.log}", "traces": list(range(len(overlay.lines)))}
         with card():
             with box("row end"):
                 text("h2", log.source)
@@ -109,11 +97,8 @@ class _View:
                     button("Keep this stretch", self._keep, "small")
                     button("Cut it out", self._cut, "small")
             text("p", "Drag over a stretch to zoom in, then keep it or cut it out. Double click shows all.", "small")
-            Chart(
-                overlay.figure(), f"{log.source} as it was logged and as it is prepared",
-                height=80 + 130 * len(overlay.names), on_range=self._zoomed,
-                series={**series, "span": overlay.span, "most": MOST},
-            )  # fmt: skip
+            label, height = f"{log.source} as it was logged and as it is prepared", 80 + 130 * len(overlay.names)
+            record_chart(overlay, "prepared", self.log, label, height, self._zoomed)
         self._zoomed(self._window)
 
     def _zoomed(self, window: tuple[float, float] | None) -> None:
@@ -130,9 +115,9 @@ class _View:
         def put() -> None:
             if self._window is None:
                 raise BadInput("no stretch is chosen; drag over a part of the figure first")
-            assert self._check is not None
+            assert self._desk.check is not None
             ends = dict(zip(("start", "stop"), (float(f"{end:.6g}") for end in self._window), strict=True))
-            self._insert({"step": word, **of(self._check.dataset.logs()[self.log].source), **ends})
+            self._insert({"step": word, **of(self._desk.check.dataset.logs()[self.log].source), **ends})
             self._window = None
 
         attempt(put)
@@ -150,7 +135,7 @@ class _View:
 
     def steps(self) -> None:
         """The chain: switch off, reorder, remove."""
-        if self._check is None and not self._content():
+        if self._desk.check is None and not self._content():
             return
         chain = self._content()
         with card("Steps, in this order"):
@@ -179,7 +164,7 @@ class _View:
 
     def adder(self) -> None:
         """One more step."""
-        check = self._check
+        check = self._desk.check
         if check is None:
             return
         word, field, unit = _KINDS[self.kind]
@@ -195,12 +180,7 @@ class _View:
                     Choice("signal of the step", options, self._signal, partial(self._set, "_signal"))
                 if field:
                     text("span", unit, "head")
-                    number = ui.element("input").props("type=number step=any")
-                    number._props["aria-label"], number._props["value"] = "number of the step", self._number
-                    number.on(
-                        "change", lambda event: self._set("_number", str(event.args)),
-                        js_handler="(e) => emit(e.target.value)",
-                    )  # fmt: skip
+                    entry("number of the step", self._number, partial(self._set, "_number"), "type=number step=any")
             button("Add", lambda: attempt(self._made), "main")
 
     def _set(self, key: str, value: str) -> None:
@@ -222,8 +202,8 @@ class _View:
 
     @property
     def _shown(self) -> Dataset:
-        assert self._check is not None
-        return self._check.dataset
+        assert self._desk.check is not None
+        return self._desk.check.dataset
 
 
 def _typed(section: Mapping[str, Any]) -> str:

@@ -121,7 +121,7 @@ def _look_button(desk: Desk) -> None:
 
 def _what(desk: Desk) -> None:
     """Data set and model."""
-    check = desk.loaded.check if desk.loaded else None
+    check = desk.check
     model = desk.project.settings().model
     text("b", check.dataset.name if check else "no data set yet")
     text("span", "against")
@@ -192,7 +192,7 @@ def _rail(desk: Desk) -> None:
 
 def _states(desk: Desk) -> list[tuple[str, bool]]:
     """Per page a few words and whether it has something to show."""
-    check = desk.loaded.check if desk.loaded else None
+    check = desk.check
     answers = desk.answers
     settings, values = desk.project.settings(), desk.project.values()
     compared, ranked = answers.with_effects(()), answers.newest("ranking")
