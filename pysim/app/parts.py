@@ -12,6 +12,7 @@ from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
 from pysim.app.flowchart import CONFIG, flowchart
+from pysim.app.renew import renew
 from pysim.app.upload import Limits
 from pysim.io import shown_value
 
@@ -73,6 +74,8 @@ class Sliders(Element, component=str(_STATIC / "sliders.js")):
         on_bound: gets the name, "min" or "max", and the value.
     """
 
+    follows = True
+
     def __init__(
         self,
         rows: Sequence[Mapping[str, Any]],
@@ -101,6 +104,8 @@ class Table(Element, component=str(_STATIC / "table.js")):
         on_row: receives the row that was picked.
         on_tick: receives the row, and whether it is ticked.
     """
+
+    follows = True
 
     def __init__(
         self,
@@ -176,7 +181,44 @@ class Drawing(Element, component=str(_STATIC / "drawing.js")):
         self.update()
 
 
-class Choice(Element, component=str(_STATIC / "choice.js")):
+class _Field(Element):
+    """What a user chooses or types there is shown, until what is built anew says otherwise."""
+
+    follows = True
+
+    def _begin(self, value: object, put: Callable[[Any], Any]) -> None:
+        def told(given: Any) -> None:
+            self._props["value"] = given
+            self._props["stamp"] += 1
+            self.update()
+            put(given)
+
+        self._props["value"], self._props["stamp"] = value, 0
+        self.on("put", lambda event: told(event.args))
+
+
+class Entry(_Field, component=str(_STATIC / "entry.js")):
+    """A field; what is written there is handed over when it is left.
+
+    Args:
+        label: for those who cannot see it.
+        put: receives what is written; of a box to tick, whether it is ticked.
+        props: "type=checkbox" makes it a box to tick.
+        tag: "input", or "textarea" for several lines.
+        each: whether it is handed over with each letter.
+    """
+
+    def __init__(
+        self, label: str, value: object, put: Callable[[Any], Any], props: str = "type=text", *, tag: str = "input",
+        each: bool = False,
+    ) -> None:  # fmt: skip
+        super().__init__()
+        self.props(props)
+        self._props.update({"aria-label": label, "tag": tag, "each": each})
+        self._begin(value, put)
+
+
+class Choice(_Field, component=str(_STATIC / "choice.js")):
     """One of a list of texts.
 
     Args:
@@ -186,13 +228,8 @@ class Choice(Element, component=str(_STATIC / "choice.js")):
 
     def __init__(self, label: str, options: Sequence[str], chosen: str, on_pick: Callable[[str], Any]) -> None:
         super().__init__()
-        self._props["label"], self._props["options"], self._props["chosen"] = label, list(options), chosen
-
-        def pick(one: str) -> None:
-            self._props["chosen"] = one
-            on_pick(one)
-
-        self.on("pick", lambda event: pick(str(event.args)))
+        self._props["label"], self._props["options"] = label, list(options)
+        self._begin(chosen, on_pick)
 
 
 class Drop(Element, component=str(_STATIC / "drop.js")):
@@ -231,13 +268,6 @@ def button(words: str, action: Callable[[], Any], kind: str = "", *, off: str = 
     return element.on("click", lambda: action())
 
 
-def entry(label: str, value: object, put: Callable[[str], Any], props: str = "type=text") -> Element:
-    """A field; what is written there is handed over when it is left."""
-    field = ui.element("input").props(props)
-    field._props["aria-label"], field._props["value"] = label, value
-    return field.on("change", lambda event: put(str(event.args)), js_handler="(e) => emit(e.target.value)")
-
-
 def head(title: str, lead: str = "") -> None:
     """Of a page."""
     text("h1", title)
@@ -265,25 +295,16 @@ def say(words: str, *, bad: bool = False) -> None:
     ui.notify(words, position="bottom-left", multi_line=True, **kind)  # type: ignore[arg-type]
 
 
-def live(
-    key: Callable[[], object], build: Callable[[], Any], kind: str = "", known: list[object] | None = None
-) -> Element:
-    """A part that is built anew whenever its key changes, in every tab.
-
-    Args:
-        known: holds the key of what is shown, for a part that changes itself.
-    """
+def live(key: Callable[[], object], build: Callable[[], Any], kind: str = "") -> Element:
+    """A part that is built anew whenever its key changes, in every tab."""
     place = box(kind) if kind else ui.element("div")
-    known = [] if known is None else known
+    known: list[object] = []
 
     def look() -> None:
         now = key()
-        if known and known[0] == now:
-            return
-        known[:] = [now]
-        place.clear()
-        with place:
-            build()
+        if not known or known[0] != now:
+            known[:] = [now]
+            renew(place, build)
 
     look()
     ui.timer(_PULSE, look)

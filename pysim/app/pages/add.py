@@ -11,7 +11,7 @@ from pysim.app.answers import Answer, history
 from pysim.app.desk import Desk
 from pysim.app.pages.common import attempt, busy, doubts, ended, nothing, start
 from pysim.app.pages.moving import moving
-from pysim.app.parts import Chart, Table, box, button, card, entry, head, live, note, text
+from pysim.app.parts import Chart, Entry, Table, box, button, card, head, live, note, text
 from pysim.present.criteria import CRITERIA
 from pysim.present.diagnosis.figures.criteria import criteria_chart
 from pysim.present.diagnosis.figures.error import error_chart
@@ -93,9 +93,9 @@ def _branches(desk: Desk) -> None:
         Chart(figure, f"Error over noise of {len(found)} branches", height=300)
         with box("tight"):
             for letter, (added, one) in zip(ascii_uppercase, found.items(), strict=False):
-                with box("row"):
+                with box("row").mark(*added):
                     rename = lambda name, added=added: attempt(lambda: desk.name(added, name))  # noqa: E731
-                    field = entry(f"name of branch {letter}", names[added], rename, f'type=text placeholder="{letter}"')
+                    field = Entry(f"name of branch {letter}", names[added], rename, f'type=text placeholder="{letter}"')
                     field.classes("field").style("width: 150px")
                     for name in added:
                         text("span", f"+ {name}", "chip")

@@ -9,7 +9,7 @@ from typing import Any
 from pysim.app.bare_logs import KINDS, ROLES, SINE, guesses, matched
 from pysim.app.desk import Desk
 from pysim.app.pages.common import amount, attempted
-from pysim.app.parts import Choice, box, button, card, entry, note, text
+from pysim.app.parts import Choice, Entry, box, button, card, note, text
 from pysim.io import counted
 from pysim.io.load import READERS
 from pysim.types import UNITS, BadInput
@@ -55,7 +55,7 @@ def _draft(desk: Desk, logs: list[Path]) -> dict[str, Any]:
 
 
 def _row(desk: Desk, column: dict[str, Any], number: int) -> None:
-    entry(f"name of column {number}", column["name"], partial(_set, column, "name"))
+    Entry(f"name of column {number}", column["name"], partial(_set, column, "name"))
     label = f"of column {number}"
     Choice(f"role {label}", ROLES, column["role"], partial(_set, column, "role"))
     Choice(f"unit {label}", ("", *UNITS), column["unit"], partial(_set, column, "unit"))

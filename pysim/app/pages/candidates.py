@@ -80,8 +80,10 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
     name = str(row["effect"])
     known = next((one for one in (desk.model or {}).get("effects", []) if one["name"] == name), None)
     tied = any(name in group for group in groups)
-    with box(f"candidate {'first' if rank == 1 and 'score' in row else ''} {'tied' if tied else ''}").props(
-        'role="listitem"'
+    with (
+        box(f"candidate {'first' if rank == 1 and 'score' in row else ''} {'tied' if tied else ''}")
+        .props('role="listitem"')
+        .mark(name)
     ):
         text("span", str(rank) if "score" in row else "·", "rank")
         curve(desk.sketches.get(name))
@@ -114,7 +116,7 @@ def _trying(desk: Desk, name: str) -> None:
     if name in desk.project.settings().added:
         text("span", "in the model", "chip good")
     elif any(one["name"] == name for one in (desk.model or {}).get("effects", [])):  # a sensor's error is none of them
-        button("Try", lambda: _try(desk, name), "small", off=busy(desk))
+        button("Try", lambda: _try(desk, name), "small", off=busy(desk)).mark(name)
 
 
 def _gain(row: Mapping[str, Any], top: float) -> None:

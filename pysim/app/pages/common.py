@@ -13,7 +13,7 @@ from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.disk import disk_trouble
 from pysim.app.jobs import FAILED, STOPPED, Work
-from pysim.app.parts import Chart, box, button, entry, note, say, text
+from pysim.app.parts import Chart, Entry, box, button, note, say, text
 from pysim.app.records import MOST, Overlay
 from pysim.app.worker import Ended
 from pysim.types import BadInput
@@ -132,7 +132,7 @@ def amount(value: Any, put: Callable[[float | None], Any], label: str, *, signed
             say(f"{label}: {written!r} is no number; write one, or leave it empty", bad=True)
 
     props = f"type=number step=any {'' if signed else 'min=0'}"
-    entry(label, "" if value is None else value, changed, props)
+    Entry(label, "" if value is None else value, changed, props)
 
 
 def record_chart(

@@ -14,7 +14,7 @@ from pysim.app.desk import Desk, Loaded
 from pysim.app.pages.bare import describe_form
 from pysim.app.pages.common import amount, attempt, busy, ended, record_chart, start
 from pysim.app.pages.start import examples, projects
-from pysim.app.parts import Choice, Drop, Table, box, button, card, head, live, note, quantity, say, text
+from pysim.app.parts import Choice, Drop, Entry, Table, box, button, card, head, live, note, quantity, say, text
 from pysim.app.records import measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted
@@ -33,7 +33,7 @@ MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.Locked
 def data_page(desk: Desk) -> None:
     """Data and model."""
     preview: dict[str, int] = {}
-    known: list[object] = []
+    named: dict[str, str] = {}
     head("Data and model", "Drop what the bench has logged, name the model, and look at what was read.")
     live(lambda: (desk.project.empty, desk.doing), lambda: examples(desk) if desk.project.empty else None, "gap")
     live(lambda: desk.version, lambda: _ready(desk), "gap")
@@ -43,9 +43,9 @@ def data_page(desk: Desk) -> None:
         "The model is an .fmu or a Modelica library.",
         limits=desk.limits, on_text=lambda words, good: say(words, bad=not good),
     )  # fmt: skip
-    live(lambda: desk.version, lambda: _model(desk), "gap")
+    live(lambda: desk.version, lambda: _model(desk, named), "gap")
     live(lambda: desk.version, lambda: _data(desk), "gap")
-    live(lambda: _described(desk), lambda: _signals(desk, known), "gap", known)
+    live(lambda: (desk.version, _described(desk)), lambda: _signals(desk), "gap")
     live(lambda: (desk.version, preview.get("record")), lambda: _records(desk, preview), "gap")
     live(lambda: desk.version, lambda: _earlier(desk), "gap")
     live(lambda: desk.version, lambda: projects(desk) if desk.project.empty else None, "gap")
@@ -75,20 +75,24 @@ def _ready(desk: Desk) -> None:
             button("Find what is missing", find, "main", off=busy(desk))
 
 
-def _model(desk: Desk) -> None:
+def _model(desk: Desk, named: dict[str, str]) -> None:
+    """Args:
+    named: what is typed in this tab.
+    """
     settings, info = desk.project.settings(), desk.model
     with card("Model"):
         with box("row"):
             names = list(dict.fromkeys([*MODELS, *([settings.model] if settings.model else [])]))
             own = [Path(one).stem for one in settings.libraries]  # a class of that name, or a package of classes
-            field = (
-                ui.input(value=settings.model or next(iter(own), ""), autocomplete=[*own, *names])
-                .props("dense outlined")
-                .style("width: 430px; max-width: 100%")
-            )
-            field.props('aria-label="Modelica class, or the name of an .fmu below model"')
+            name = named.get("name", settings.model or next(iter(own), ""))
+            label = "Modelica class, or the name of an .fmu below model"
+            field = Entry(label, name, lambda words: named.update(name=words), "type=text list=models spellcheck=false")
+            field.classes("field").style("width: 430px; max-width: 100%")
+            with ui.element("datalist").props("id=models"):
+                for one in dict.fromkeys([*own, *names]):
+                    ui.element("option")._props["value"] = one
             off = "Wait until the running work has ended" if desk.runner.running else ""
-            button("Use this model", lambda: _use(desk, str(field.value)), "" if settings.model else "main", off=off)
+            button("Use this model", lambda: _use(desk, named, name), "" if settings.model else "main", off=off)
             if desk.model_busy:
                 box("spin")
                 text("span", "building the model; the first on a machine takes some minutes on Windows", "small")
@@ -112,9 +116,10 @@ def _model(desk: Desk) -> None:
                 note(_NO_SLOTS)
 
 
-def _use(desk: Desk, name: str) -> None:
-    project = desk.project
+def _use(desk: Desk, named: dict[str, str], name: str) -> None:
+    project, name = desk.project, named.get("name", name)
     if attempt(lambda: project.use_model(project.model_name(name), project.settings().libraries)):
+        named.clear()
         background_tasks.create(desk.read_model())
 
 
@@ -146,8 +151,8 @@ def _refused(desk: Desk, loaded: Loaded) -> None:
             text("span", "or mend them and drop the folder again", "small")
 
 
-def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = False) -> bool:
-    """Edit the description; what is refused is said, and nothing is changed; whether it was done.
+def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = False) -> None:
+    """Edit the description; what is refused is said, and nothing is changed.
 
     Args:
         safe: whether the edit cannot make it one that is refused, so that nothing has to be read to know.
@@ -161,23 +166,18 @@ def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = Fa
         change_description(desk.project.description, content, read=not safe)
         desk.project.change(added=())
 
-    done = attempt(change)
+    attempt(change)
     background_tasks.create(desk.read_data())
-    return done
 
 
-def _described(desk: Desk) -> tuple[object, ...]:
-    """What tells that signals are to be shown anew."""
+def _described(desk: Desk) -> int:
+    """When the description was written, though by another program."""
     path = desk.project.description
-    return desk.check is None, desk.model is None, path.stat().st_mtime_ns if path.is_file() else 0
+    return path.stat().st_mtime_ns if path.is_file() else 0
 
 
-def _signals(desk: Desk, known: list[object]) -> None:
-    """Which column is which variable of the model, its unit in the files, and its noise.
-
-    Args:
-        known: what is shown; a tab that changes a field shows it already, and what is typed in the next one stays.
-    """
+def _signals(desk: Desk) -> None:
+    """Which column is which variable of the model, its unit in the files, and its noise."""
     check = desk.check
     if check is None:
         return
@@ -194,17 +194,16 @@ def _signals(desk: Desk, known: list[object]) -> None:
             for words in ("signal", "role", "unit", "variable of the model", *_NUMBERS):
                 text("span", words, "head")
             for name, section in content["signals"].items():
-                _signal(desk, name, section, variables, known)
+                _signal(desk, name, section, variables)
     if desk.model is not None:
         for signal in check.dataset.signals:
             if variables and signal.variable not in variables:
                 note(f"The model has no variable {signal.variable}; choose another one for {signal.name}.", "bad")
 
 
-def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[str], known: list[object]) -> None:
+def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[str]) -> None:
     def put(key: str, value: Any) -> None:
-        done = change(desk, lambda content: content["signals"][name].update({key: value}))
-        known[:] = [_described(desk)] if done else []
+        change(desk, lambda content: content["signals"][name].update({key: value}))
 
     text("b", name)
     text("span", str(section.get("role", "")))
@@ -255,7 +254,7 @@ def _earlier(desk: Desk) -> None:
         return
     with card("Earlier data sets"), box("tight"):
         for folder in earlier:
-            with box("row"):
+            with box("row").mark(folder.name):
                 off = "Wait until the running work has ended" if desk.runner.running else ""
                 button(f"Bring back {folder.name}", partial(_bring_back, desk, folder), "small", off=off)
                 found = [path.name for path in folder.rglob("*") if path.is_file()]

@@ -6,13 +6,11 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
-from nicegui import ui
-
 from pysim.app.description import moved, put_steps, read_description
 from pysim.app.desk import Desk
 from pysim.app.pages.common import attempt, attempted, nothing, record_chart
 from pysim.app.pages.data import change
-from pysim.app.parts import Choice, box, button, card, entry, head, live, text
+from pysim.app.parts import Choice, Entry, box, button, card, head, live, text
 from pysim.app.records import measured_overlay
 from pysim.io.prepare import Step, call, step_of, values_of
 from pysim.io.toml_section import Section
@@ -69,7 +67,7 @@ class _View:
                 button("Check signs and units with the model", check_, "small", off=words)
             for k, log in enumerate(check.dataset.logs()):
                 found = [one for one in check.findings if one.source == log.source]
-                with box("row"):
+                with box("row").mark(log.source):
                     light = "bad" if any(one.cure for one in found) else "" if found else "good"
                     text("span", {"bad": "✗ mend", "": "? look", "good": "✓ ready"}[light], f"chip {light}")
                     button(log.source, partial(self._look_at, k), "small" if k != self.log else "small main")
@@ -142,10 +140,8 @@ class _View:
             if not chain:
                 text("p", "None yet: the logs are taken as they are.", "small")
             for k, one in enumerate(chain):
-                with box("row step"):
-                    tick = ui.element("input").props("type=checkbox")
-                    tick._props["checked"], tick._props["aria-label"] = not one.get("off"), f"step {k + 1} is done"
-                    tick.on("change", partial(self._turn, k))
+                with box("row step").mark(_typed(one)):
+                    Entry(f"step {k + 1} is done", not one.get("off"), partial(self._turn, k), "type=checkbox")
                     text("span", f"{k + 1}. {_typed(one)}", "mono dim" if one.get("off") else "mono")
                     for words, by, end in (("↑", -1, 0), ("↓", 1, len(chain) - 1)):
                         off = "Nothing lies beyond" if k == end else ""
@@ -154,9 +150,9 @@ class _View:
                     press = button("Remove", partial(self._move, k, 0), "small quiet")
                     press._props["aria-label"] = f"remove step {k + 1}"
 
-    def _turn(self, number: int) -> None:
+    def _turn(self, number: int, on: bool) -> None:
         chain = self._content()
-        chain[number] = {**chain[number], "off": not chain[number].get("off", False)}
+        chain[number] = {**chain[number], "off": not on}
         change(self._desk, lambda content: put_steps(content, chain))
 
     def _move(self, number: int, by: int) -> None:
@@ -180,7 +176,7 @@ class _View:
                     Choice("signal of the step", options, self._signal, partial(self._set, "_signal"))
                 if field:
                     text("span", unit, "head")
-                    entry("number of the step", self._number, partial(self._set, "_number"), "type=number step=any")
+                    Entry("number of the step", self._number, partial(self._set, "_number"), "type=number step=any")
             button("Add", lambda: attempt(self._made), "main")
 
     def _set(self, key: str, value: str) -> None:

@@ -64,7 +64,7 @@ def projects(desk: Desk) -> None:
         return
     with card("Recent projects"), box("tight"):
         for folder in others:
-            with box("row"):
+            with box("row").mark(folder.name):
                 button(folder.name, partial(_open, desk, folder), "small")
                 text("span", str(folder.parent), "small mono")
 

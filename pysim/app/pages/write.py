@@ -10,7 +10,7 @@ from nicegui import background_tasks, run, ui
 
 from pysim.app.desk import Desk
 from pysim.app.pages.common import amount, attempted, busy
-from pysim.app.parts import Chart, box, button, entry, live, text
+from pysim.app.parts import Chart, Entry, box, button, live, text
 from pysim.present.diagnosis.figures.law import law_chart
 from pysim.types import BadInput
 from pysim.workflow import LawPlace, typed_law
@@ -20,24 +20,28 @@ _NUMBERS = {"low": "lowest", "usual": "usual", "high": "highest"}  # fields of a
 
 
 class Writing:
-    """One tab's law for one slot.
+    """One tab's law for one slot."""
 
-    Args:
-        learned: the law that was learned there, if one was.
-        chart: that shows it.
-    """
-
-    def __init__(self, desk: Desk, slot: str, learned: Mapping[str, Any] | None, chart: Chart | None) -> None:
-        self._desk, self._learned, self._chart = desk, learned, chart
-        project, model = desk.project, desk.model or {}
+    def __init__(self, desk: Desk, slot: str) -> None:
+        self._desk, self._slot = desk, slot
         self._law, self._name, self._trouble, self._wrong = "", f"my.{slot}", "", -1
         self._ranges: dict[str, Range] = {}  # as they are shown
         self._chosen: dict[str, Range] = {}  # by the user
         self._version = self._asked = 0
         self._followed = True  # whether usual values come from the learned curve
+
+    def show(self, learned: Mapping[str, Any] | None, chart: Chart | None) -> None:
+        """As it is typed so far.
+
+        Args:
+            learned: the law that was learned there, if one was.
+            chart: that shows it.
+        """
+        self._learned, self._chart = learned, chart
+        project, model = self._desk.project, self._desk.model or {}
         try:
             libraries = [project.folder / one for one in project.settings().libraries]
-            self._place = LawPlace.of(str(model["class"]), slot, libraries)
+            self._place = LawPlace.of(str(model["class"]), self._slot, libraries)
         except (BadInput, KeyError):
             return
         self._build()
@@ -48,10 +52,11 @@ class Writing:
         words = ", ".join(f"{name} ({self._place.units.get(name) or 'any unit'})" for name in (*slot.sees, "time"))
         gives = ", ".join(f"{name} ({self._place.units.get(name) or 'any unit'})" for name in slot.gives)
         text("p", f"It gives {gives}. It may use {words}. Any other name becomes a parameter.", "small")
-        field = ui.element("textarea").classes("field mono").props("rows=2 spellcheck=false autocomplete=off")
-        field._props["aria-label"] = f"law for {slot.name}"
-        field._props["placeholder"] = f"-F_c*tanh({slot.sees[-1] if slot.sees else 'time'}/v_0)"
-        field.on("input", lambda event: self._typed(str(event.args)), js_handler="(e) => emit(e.target.value)")
+        props = "rows=2 spellcheck=false autocomplete=off"
+        field = Entry(f"law for {slot.name}", self._law, self._typed, props, tag="textarea", each=True)
+        field.classes("field mono")._props["placeholder"] = f"-F_c*tanh({[*slot.sees, 'time'][-1]}/v_0)"
+        if self._law:
+            self._typed(self._law)  # the curve anew
         live(lambda: self._version, self._rows, "tight")
 
     def _typed(self, law: str) -> None:
@@ -98,7 +103,7 @@ class Writing:
                     text("p", words, "note")
             with box("row"):
                 named = lambda name: setattr(self, "_name", name.strip())  # noqa: E731
-                entry("name of the law", self._name, named).classes("field").style("width: 180px")
+                Entry("name of the law", self._name, named).classes("field").style("width: 180px")
                 button("Add and refit", self._add, "main", off=busy(self._desk))
 
     def _row(self, name: str) -> None:
@@ -106,7 +111,7 @@ class Writing:
         for key, words in _NUMBERS.items():
             value = float(f"{getattr(self._ranges[name], key):.4g}")
             amount(value, partial(self._choose, name, key), f"{words} of {name}", signed=True)
-        entry(f"unit of {name}", self._ranges[name].unit, lambda unit: self._choose(name, "unit", unit.strip()))
+        Entry(f"unit of {name}", self._ranges[name].unit, lambda unit: self._choose(name, "unit", unit.strip()))
 
     def _choose(self, name: str, key: str, value: Any) -> None:
         """A range that the user has set stays while the law is written on."""

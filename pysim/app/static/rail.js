@@ -31,28 +31,3 @@ document.addEventListener("keydown", (event) => {
 let dark = false;
 addEventListener("beforeprint", () => (dark = document.body.classList.contains("body--dark")) && document.body.classList.remove("body--dark"));
 addEventListener("afterprint", () => dark && document.body.classList.add("body--dark"));
-
-// A part of the page that is drawn anew keeps the focus, and what is being typed there, in the field of the same name.
-let field = null; // where the focus is: its name, the element, and what was typed and not yet handed over
-const named = (element) => element.getAttribute?.("aria-label");
-document.addEventListener("focusin", ({ target }) => (field = named(target) ? { name: named(target), target, typed: null } : null));
-document.addEventListener("pointerdown", () => (field = null), true);
-document.addEventListener("input", ({ target }) => field?.target === target && (field.typed = target.value));
-document.addEventListener("change", ({ target }) => {
-  // where a field is taken away a browser tells of a change as well, and nobody hears it
-  setTimeout(() => target.isConnected && field?.target === target && (field.typed = null));
-});
-new MutationObserver(() => {
-  if (!field || field.target.isConnected) return;
-  const { name, typed } = field;
-  const again = document.querySelector(`[aria-label="${CSS.escape(name)}"]`);
-  if (!again) return;
-  again.focus({ preventScroll: true });
-  if (typed === null || again.type === "range") return;
-  field = { name, target: again, typed };
-  again.value = typed;
-  let told = false; // a browser tells of a change that the user has made, and not of this one
-  again.addEventListener("change", () => (told = true), { once: true });
-  const tell = () => told || !again.isConnected || again.dispatchEvent(new Event("change", { bubbles: true }));
-  again.addEventListener("blur", () => setTimeout(tell), { once: true }); // not where it is taken away as well
-}).observe(document, { childList: true, subtree: true });

@@ -1,7 +1,6 @@
 """Logs that nobody has described, in a real browser: the form is filled in, and the data set is there."""
 
 import tomllib
-from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -46,7 +45,6 @@ def test_single_logs_are_described_on_the_page(shown: Shown, show: Show, logs: l
     tab.shot("bare")
     tab.press("Use these logs")
     tab.see("spare: choose a unit, or a dash to leave the column out")
-    tab.until(tab.page.get_by_role("button", name="Use these logs", exact=True).is_enabled)  # drawn anew until then
     tab.page.get_by_label("role of column 4").select_option("-")
     tab.press("Use these logs")
     tab.see("3 records, 1 not fitted")
@@ -118,7 +116,11 @@ def test_dates_volts_an_empty_cell_and_a_turned_sign_are_made_ready_by_clicks_al
     tab.see("1 record, 0 not fitted")
     tab.see("Next: fill the cells that are empty, or cut them out, on the page Prepare.")
     for key, value in (("unit", "mm"), ("factor", "-25"), ("offset", "125")):
-        tab.until(partial(put, tab, tmp_path, key, value))
+        field = tab.page.get_by_label(f"{key} of x")
+        field.select_option(value) if key == "unit" else (field.fill(value), field.press("Tab"))
+        tab.until(
+            lambda key=key, value=value: str(described(tmp_path)["signals"]["x"].get(key)).removesuffix(".0") == value
+        )
     tab.shot("volts")
     tab.go("Prepare")
     tab.see("x lacks 1 sample")
@@ -129,15 +131,6 @@ def test_dates_volts_an_empty_cell_and_a_turned_sign_are_made_ready_by_clicks_al
     assert np.diff(log.time) == pytest.approx(0.01)
     assert log["x"] == pytest.approx(wave, abs=1e-4)  # m
     assert tab.errors == []
-
-
-def put(tab: Tab, folder: Path, key: str, value: str) -> bool:
-    """Whether a value of x is described; if not it is given once more, as the form may be drawn anew meanwhile."""
-    if str(described(folder)["signals"]["x"].get(key)).removesuffix(".0") == value:
-        return True
-    field = tab.page.get_by_label(f"{key} of x")
-    field.select_option(value) if key == "unit" else (field.fill(value), field.press("Tab"))
-    return False
 
 
 def described(folder: Path) -> dict[str, Any]:

@@ -160,17 +160,3 @@ def test_a_turned_sign_is_found_with_the_model_and_turned_by_a_click(
         )
     )
     assert tab.errors == []
-
-
-def test_what_is_being_typed_stays_where_the_page_is_drawn_anew(shown: Shown, show: Show, project: Project) -> None:
-    tab = Tab(shown, show(project.folder, idle=True))
-    field = tab.page.get_by_label("noise of x")
-    field.wait_for()
-    field.evaluate("(el) => (el.dataset.old = 'yes')")
-    field.press_sequentially("0.2")
-    project.description.write_text(project.description.read_text().replace('"toy"', '"other"'))
-    tab.page.locator("[aria-label='noise of x']:not([data-old])").wait_for()
-    tab.page.keyboard.type("5")
-    tab.page.keyboard.press("Tab")
-    tab.until(lambda: tomllib.loads(project.description.read_text())["signals"]["x"].get("noise") == 0.25)
-    assert tab.errors == []
