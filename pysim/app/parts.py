@@ -12,12 +12,10 @@ from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
 from pysim.app.flowchart import CONFIG, flowchart
-from pysim.app.renew import renew
 from pysim.app.upload import Limits
 from pysim.io import shown_value
 
 _STATIC = Path(__file__).parent / "static"
-_PULSE = 0.3  # s between two looks at what has changed
 
 assert nicegui.elements.plotly
 
@@ -293,22 +291,6 @@ def say(words: str, *, bad: bool = False) -> None:
     """A sentence that goes away by itself; an error stays until it is read."""
     kind = {"type": "negative", "timeout": 0, "close_button": "Close"} if bad else {"type": "positive", "timeout": 3500}
     ui.notify(words, position="bottom-left", multi_line=True, **kind)  # type: ignore[arg-type]
-
-
-def live(key: Callable[[], object], build: Callable[[], Any], kind: str = "") -> Element:
-    """A part that is built anew whenever its key changes, in every tab."""
-    place = box(kind) if kind else ui.element("div")
-    known: list[object] = []
-
-    def look() -> None:
-        now = key()
-        if not known or known[0] != now:
-            known[:] = [now]
-            renew(place, build)
-
-    look()
-    ui.timer(_PULSE, look)
-    return place
 
 
 def curve(shown: Mapping[str, Any] | None) -> None:

@@ -9,9 +9,10 @@ from typing import Any
 
 from pysim.app.answers import Answer, history
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.common import attempt, busy, doubts, ended, nothing, start
 from pysim.app.pages.moving import moving
-from pysim.app.parts import Chart, Entry, Table, box, button, card, head, live, note, text
+from pysim.app.parts import Chart, Entry, Table, box, button, card, head, note, text
 from pysim.present.criteria import CRITERIA
 from pysim.present.diagnosis.figures.criteria import criteria_chart
 from pysim.present.diagnosis.figures.error import error_chart

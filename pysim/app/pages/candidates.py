@@ -9,9 +9,10 @@ from nicegui import ui
 
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.common import attempt, busy, ended, nothing, played, start
 from pysim.app.pages.moving import moving
-from pysim.app.parts import box, button, card, curve, head, live, text
+from pysim.app.parts import box, button, card, curve, head, text
 
 
 def candidates_page(desk: Desk) -> None:

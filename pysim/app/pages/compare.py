@@ -12,9 +12,10 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.error_map import ErrorMap, error_maps
+from pysim.app.live import live
 from pysim.app.pages.common import busy, doubts, ended, nothing, record_chart, segments, start
 from pysim.app.pages.moving import moving
-from pysim.app.parts import Chart, Table, box, button, card, head, live, quantity, text
+from pysim.app.parts import Chart, Table, box, button, card, head, quantity, text
 from pysim.app.records import compared_overlay, measured_overlay, stage_keys
 from pysim.app.working_point import command_unit, response_unit, working_point
 from pysim.present.comparison.figures import bode_chart

@@ -11,10 +11,11 @@ from nicegui import background_tasks, ui
 
 from pysim.app.description import change_description, hold_out, leave_out, read_description
 from pysim.app.desk import Desk, Loaded
+from pysim.app.live import live
 from pysim.app.pages.bare import describe_form
 from pysim.app.pages.common import amount, attempt, busy, ended, record_chart, start
 from pysim.app.pages.start import examples, projects
-from pysim.app.parts import Choice, Drop, Entry, Table, box, button, card, head, live, note, quantity, say, text
+from pysim.app.parts import Choice, Drop, Entry, Table, box, button, card, head, note, quantity, say, text
 from pysim.app.records import measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted

@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.candidates import effect_row
 from pysim.app.pages.common import busy, ended, nothing, start
 from pysim.app.pages.moving import moving
 from pysim.app.pages.write import Writing
-from pysim.app.parts import Chart, Drawing, box, button, card, live, note, text
+from pysim.app.parts import Chart, Drawing, box, button, card, note, text
 from pysim.present.diagnosis.figures.law import law_chart
 
 _Found = Mapping[str, Mapping[str, Any]]

@@ -10,9 +10,10 @@ from nicegui import background_tasks
 
 from pysim.app.description import BEGINS, begin_logs, begins, read_description
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.common import attempt, busy, nothing
 from pysim.app.pages.data import change
-from pysim.app.parts import Chart, Choice, Sliders, box, button, card, head, live, say, text
+from pysim.app.parts import Chart, Choice, Sliders, box, button, card, head, say, text
 from pysim.app.records import followed_overlay
 from pysim.app.worker import Ended
 from pysim.types import BadInput

@@ -6,7 +6,8 @@ from typing import Any
 
 from pysim.app.desk import Desk
 from pysim.app.jobs import Job
-from pysim.app.parts import Chart, Table, box, card, live, text
+from pysim.app.live import live
+from pysim.app.parts import Chart, Table, box, card, text
 from pysim.app.records import followed_overlay
 from pysim.present.diagnosis.figures.search import left_over, search_chart
 

@@ -8,9 +8,10 @@ from typing import Any
 
 from pysim.app.description import moved, put_steps, read_description
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.common import attempt, attempted, nothing, record_chart
 from pysim.app.pages.data import change
-from pysim.app.parts import Choice, Entry, box, button, card, head, live, text
+from pysim.app.parts import Choice, Entry, box, button, card, head, text
 from pysim.app.records import measured_overlay
 from pysim.io.prepare import Step, call, step_of, values_of
 from pysim.io.toml_section import Section

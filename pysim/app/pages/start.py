@@ -9,8 +9,9 @@ from pathlib import Path
 from nicegui import background_tasks, ui
 
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.common import attempt
-from pysim.app.parts import box, button, card, head, live, text
+from pysim.app.parts import box, button, card, head, text
 from pysim.app.recent import recent
 
 _EXAMPLES = {

@@ -8,8 +8,9 @@ from nicegui import ui
 
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.common import nothing, played
-from pysim.app.parts import box, button, card, head, live, say, text
+from pysim.app.parts import box, button, card, head, say, text
 
 _FILES = (
     (

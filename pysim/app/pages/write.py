@@ -9,8 +9,9 @@ from typing import Any
 from nicegui import background_tasks, run, ui
 
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.common import amount, attempted, busy
-from pysim.app.parts import Chart, Entry, box, button, live, text
+from pysim.app.parts import Chart, Entry, box, button, text
 from pysim.present.diagnosis.figures.law import law_chart
 from pysim.types import BadInput
 from pysim.workflow import LawPlace, typed_law
