@@ -1,5 +1,6 @@
 """A page that is drawn anew without end loses no click, no choice and nothing that is typed."""
 
+import re
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -8,7 +9,7 @@ import pytest
 
 from pysim.app.project import Project, Settings
 from tests.pysim.app.browser import Show, Shown, Tab
-from tests.pysim.app.made import description
+from tests.pysim.app.made import description, rubbing
 
 
 @pytest.fixture
@@ -77,3 +78,30 @@ def test_what_was_refused_is_shown_no_more(shown: Shown, show: Show, project: Pr
     tab.until(lambda: factor.input_value() == "")
     assert unit.input_value() == "m"
     assert project.description.read_bytes() == before
+
+
+def test_a_bound_and_a_law_that_are_typed_stay(shown: Shown, show: Show, tmp_path: Path) -> None:
+    project = rubbing(tmp_path / "project")
+    tab = Tab(shown, show(project.folder, restless=True))
+    tab.see("effects that fit")
+    tab.go("Model")
+    tab.page.locator(".chart[aria-label='Measured and simulated'][data-ready=yes]").wait_for()
+    high = tab.page.get_by_label("max of k")
+    high.fill("3")
+    tab.page.wait_for_timeout(300)
+    high.press_sequentially("00", delay=50)
+    tab.page.get_by_label("min of k").focus()
+    tab.until(lambda: project.settings().ranges == {"k": (1.0, 300.0)})
+    tab.go("Locate")
+    tab.page.get_by_role("button", name=re.compile("^force")).click()
+    law = tab.page.get_by_label("law for force")
+    law.press_sequentially("-F*tanh(", delay=20)
+    tab.page.wait_for_timeout(300)
+    law.press_sequentially("v/v_0)", delay=20)
+    tab.page.get_by_label("usual of v_0").fill("0.02")
+    tab.page.get_by_label("usual of F").fill("0.4")
+    tab.page.get_by_label("unit of F").focus()
+    tab.page.wait_for_timeout(300)
+    assert law.input_value() == "-F*tanh(v/v_0)"
+    assert [tab.page.get_by_label(f"usual of {name}").input_value() for name in ("v_0", "F")] == ["0.02", "0.4"]
+    assert tab.errors == []
