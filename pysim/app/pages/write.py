@@ -75,7 +75,8 @@ class Writing:
                 found = await run.io_bound(typed_law, law, self._place, self._learned, self._chosen)
                 if found is None:  # the server ends
                     return
-                self._ranges, curve = dict(found.ranges), found.curve
+                self._ranges = {name: self._chosen.get(name, one) for name, one in found.ranges.items()}
+                curve = found.curve
                 self._followed = curve is not None
             except BadInput as error:
                 self._trouble, self._wrong = str(error) if law.strip() else "", getattr(error, "place", -1)
@@ -117,7 +118,7 @@ class Writing:
     def _choose(self, name: str, key: str, value: Any) -> None:
         """A range that the user has set stays while the law is written on."""
         if value is not None:
-            self._chosen[name] = self._ranges[name]._replace(**{key: value})
+            self._ranges[name] = self._chosen[name] = self._ranges[name]._replace(**{key: value})
         self._typed(self._law)
 
     async def _add(self) -> None:
