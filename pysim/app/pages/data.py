@@ -77,9 +77,7 @@ def _ready(desk: Desk) -> None:
 
 
 def _model(desk: Desk, named: dict[str, str]) -> None:
-    """Args:
-    named: what is typed in this tab.
-    """
+    """The model that is used; `named` holds what this tab has typed."""
     settings, info = desk.project.settings(), desk.model
     with card("Model"):
         with box("row"):
