@@ -73,10 +73,19 @@ def _annotated(source: ClassText, name: str) -> dict[str, Modifier]:
     return modifiers(inside)
 
 
+_MODELS = ("model", "block", "class")
+
+
 def _check_is_model(found: ClassText) -> None:
     what = "partial " if "partial" in found.prefixes else ""
-    if what or found.kind not in ("model", "block", "class"):
-        message = f"{found.full_name} is a {what}{found.kind}; name a model or a block"
+    if what or found.kind not in _MODELS:
+        inside = [
+            one.full_name for one in found.classes.values() if one.kind in _MODELS and not one.prefixes & {"partial"}
+        ]
+        near = (
+            f", such as {' or '.join(inside[-3:])}" if inside else ""
+        )  # what others are made of comes first in a file
+        message = f"{found.full_name} is a {what}{found.kind}; name a model or a block{near}"
         raise WrongCall(message, *found.place(found.start))
 
 

@@ -77,10 +77,10 @@ class Answers:
     @classmethod
     def of(cls, project: Project) -> Answers:
         """Read from its folder."""
-        now = project.fingerprint()
+        now, deleted = project.fingerprint(), project.settings().deleted
         found, unreadable = [], []
         for folder in sorted((project.folder / "results").glob("*")):
-            job = read_job(folder)
+            job = None if folder.name in deleted else read_job(folder)
             if job is None or job.state != DONE or job.fingerprint != now:
                 continue
             try:

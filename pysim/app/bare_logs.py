@@ -1,39 +1,49 @@
-"""What the columns of bare logs are, as far as headings and the model tell it, and the description made of it."""
+"""What the columns of bare logs are, as far as headings and the model tell it, and the data set made of them."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping, Sequence
 from itertools import chain, repeat
 from pathlib import Path
 from typing import Any
 
-from pysim.app.description import described
-from pysim.io import name_and_unit, read_thesis_folder
-from pysim.types import SECONDS, UNITS, BadInput, MeasuredSignal, conversion
-from pysim.types.record_kind import CHIRP, LOGS, STEPPED_SINE
+from pysim.app.description import description_text, read_description
+from pysim.io import read_thesis_folder, write_file
+from pysim.io.load import RawTable
+from pysim.io.load.clock import read_clock, rises
+from pysim.io.load.headings import name_and_unit
+from pysim.nouns.data import load
+from pysim.types import UNITS, BadInput, MeasuredSignal, conversion
+from pysim.types.record_kind import LOGS, STEPPED_SINE
 
 SINE = STEPPED_SINE.name
 ROLES = ("time", "input", "output", "-")
-KINDS = tuple(kind.name for kind in reversed(LOGS))
+KINDS = tuple(kind.name for kind in reversed(LOGS) if not kind.needs or kind is STEPPED_SINE)
 
 
-def guesses(headings: Sequence[str], clock: int = 0, *, fixed: bool = False) -> list[dict[str, Any]]:
-    """The clock, then the command, then what answers; a unit in the heading's brackets is taken.
-
-    Args:
-        headings: as the log has them, a dash for a column that holds no numbers.
-        clock: number of the column that is the time.
-        fixed: whether columns are found by their headings, which then stay as they are.
-    """
+def guesses(table: RawTable) -> list[dict[str, Any]]:
+    """The clock, then the command, then what answers; a unit that the log tells is taken."""
+    try:
+        clock = read_clock(table, None, {}, ()).heading
+    except BadInput:  # none, or several: the user will say
+        clock = next((one for one in table.headings if rises(table, one)), table.headings[0])
     roles = chain(("input",), repeat("output"))
-    own = ["-" if one == "-" else "time" if k == clock else next(roles) for k, one in enumerate(headings)]
-    return [_guess(k + 1, one, role, fixed) for k, (one, role) in enumerate(zip(headings, own, strict=True))]
+    found = []
+    for heading in table.headings:
+        name, unit = name_and_unit(heading)
+        unit = table.units.get(heading, unit)
+        role = "time" if heading == clock else next(roles) if _holds_numbers(table, heading) else "-"
+        own = {"heading": heading, "name": name, "role": role, "unit": unit if unit in UNITS else ""}
+        found.append({**own, "variable": "", "noise": None})
+    return found
 
 
-def _guess(number: int, heading: str, role: str, fixed: bool) -> dict[str, Any]:
-    name, unit = name_and_unit(heading)
-    own = {"number": number, "name": heading if fixed else name, "role": role}
-    return {**own, "unit": unit if unit in UNITS else "", "variable": "", "noise": None}
+def _holds_numbers(table: RawTable, heading: str) -> bool:
+    try:
+        return bool(table.numbers(heading).size)
+    except BadInput:
+        return False
 
 
 def matched(column: dict[str, Any], variables: Sequence[Sequence[str]]) -> None:
@@ -59,60 +69,57 @@ def _but_for_case(column: dict[str, Any], variables: Sequence[Sequence[str]]) ->
     return found[0] if fits else None
 
 
-def bare_description(
-    folder: Path, logs: Sequence[Path], columns: Sequence[Mapping[str, Any]], kind: str
-) -> dict[str, Any]:
-    """The content of a dataset.toml.
+def describe_logs(folder: Path, columns: Sequence[Mapping[str, Any]], kind: str, into: Path) -> None:
+    """Write the logs of a folder as a data set: text, times in s, a dataset.toml. The last of several is held out.
 
     Args:
-        folder: of the data set.
-        logs: in it, or below.
-        columns: of every log: `name`, `role`, `unit`, `variable` ("" where the name is the model's too), `noise`.
-        kind: of all logs.
+        columns: of every log: `heading`, `name`, `role`, `unit`, `noise`, and `variable`: "" where the name is the
+            model's too.
+        kind: of all logs, one of KINDS.
+        into: a folder that is not there yet.
     Raises:
         BadInput: what has to be chosen otherwise.
     """
-    own = [{**c, "variable": c["variable"] or c["name"]} for c in columns]
-    without = [c["name"] for c in own if c["role"] in ("input", "output") and not c["unit"]]
-    if without:
+    clocks = [c["heading"] for c in columns if c["role"] == "time"]
+    own = {role: {c["name"]: c for c in columns if c["role"] == role} for role in ("input", "output")}
+    signals = own["input"] | own["output"]
+    if len(clocks) != 1 or not all(own.values()):
+        raise BadInput("columns: choose one as time, and at least one input and one output")
+    if len(signals) < sum(c["role"] in own for c in columns):
+        raise BadInput("columns: two have the same name; give each its own")
+    if without := [name for name, c in signals.items() if not c["unit"]]:
         raise BadInput(f"{', '.join(without)}: choose a unit, or a dash to leave the column out")
-    content = described(folder.name, own, _sines(folder, own) if kind == SINE else _others(folder, logs, kind))
-    unit = _time_unit(own)
-    if unit != "s":
-        content["dataset"]["time_unit"] = unit
-    return content
+    time = next(c["unit"] for c in columns if c["role"] == "time")
+    try:
+        inputs, outputs = ({name: c["heading"] for name, c in one.items()} for one in own.values())
+        load(
+            folder, inputs=inputs, outputs=outputs, time=clocks[0],
+            units={name: c["unit"] for name, c in signals.items()} | ({clocks[0]: time} if time else {}),
+            noise={name: c["noise"] for name, c in signals.items() if c["noise"] is not None},
+            variables={name: c["variable"] for name, c in signals.items() if c["variable"]},
+        ).save(into)  # fmt: skip
+    except BadInput as error:
+        raise BadInput(str(error).replace(f"{folder}{os.sep}", "")) from error
+    content = read_description(into / "dataset.toml")
+    content["dataset"]["description"] = "dropped as logs"
+    if kind == SINE:
+        content["records"] = _sines(into, content)
+    for record in content["records"]:
+        record["kind"] = kind
+        record.pop("origin", None)  # where it lay on this machine
+    if kind != SINE and len(content["records"]) > 1:
+        content["records"][-1]["use"] = "validate"
+    write_file(into / "dataset.toml", description_text(content))
 
 
-def _time_unit(columns: Sequence[Mapping[str, Any]]) -> str:
-    """Of the clock, s where nothing was chosen."""
-    unit = next((c["unit"] for c in columns if c["role"] == "time" and c["unit"]), "s")
-    if unit not in SECONDS:
-        raise BadInput(f"time is not stated in {unit}; choose {', '.join(SECONDS)}")
-    return str(unit)
-
-
-def _others(folder: Path, logs: Sequence[Path], kind: str) -> list[dict[str, Any]]:
-    """The last of several is not fitted."""
-    if kind == CHIRP.name:
-        raise BadInput("chirps need offset and amplitude; write a dataset.toml (docs/reference/data_set.md)")
-    files = [path.relative_to(folder).as_posix() for path in logs]
-    held = len(files) - 1 if len(files) > 1 else -1
-    return [{"file": f, "kind": kind, "use": "validate" if k == held else "fit"} for k, f in enumerate(files)]
-
-
-def _sines(folder: Path, columns: Sequence[Mapping[str, Any]]) -> list[dict[str, Any]]:
-    """Offset, amplitude and frequency from names, or read off the command."""
-    if [c["role"] for c in columns][:1] != ["time"] or "-" in [c["role"] for c in columns]:
-        raise BadInput("stepped sines without a dataset.toml: time must be the first column, and none be left out")
-    if _time_unit(columns) != "s":
-        raise BadInput(
-            "stepped sines without a dataset.toml: their times must be in s; write a dataset.toml for others"
-        )
+def _sines(folder: Path, content: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Logs with a frequency in their names: offset, amplitude and frequency from names, or read off the command."""
     # offsets and amplitudes stay in the unit of the files, as a dataset.toml tells them
-    signals = [MeasuredSignal(c["name"], c["role"], "1", c["name"], c["variable"]) for c in columns[1:]]
-    found = read_thesis_folder(folder, signals).records
+    signals = [MeasuredSignal(name, one["role"], "1", name, name) for name, one in content["signals"].items()]
+    inputs = [signal.name for signal in signals if signal.role == "input"]
+    records = {str(record["file"]): record for record in content["records"]}
+    told = {"input": inputs[0]} if len(inputs) > 1 else {}
     return [
-        {"file": r.source, "kind": r.kind, "use": r.use}
-        | {"offset": r.offset, "amplitude": r.amplitude, "frequency": r.frequency}
-        for r in found
+        {**records[r.source], "offset": r.offset, "amplitude": r.amplitude, "frequency": r.frequency, **told}
+        for r in read_thesis_folder(folder, signals).records
     ]

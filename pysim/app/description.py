@@ -7,10 +7,10 @@ from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from pysim.io import log_source, names_its_columns, read_described, read_toml, toml_key, toml_table, write_file
+from pysim.io import log_source, read_described, read_toml, toml_key, toml_table, write_file
 from pysim.io.prepare import HoldOut, prepared
 from pysim.types import BadInput, Dataset
-from pysim.types.record_kind import RESPONSE_TABLE, STEPPED_SINE
+from pysim.types.record_kind import RESPONSE_TABLE
 
 
 def read_description(path: Path) -> dict[str, Any]:
@@ -153,35 +153,3 @@ def refuse_outside(path: Path) -> None:
         name = record.get("file") if isinstance(record, dict) else None
         if isinstance(name, str) and not (root / name.replace("\\", "/")).resolve().is_relative_to(root):
             raise BadInput(f"{path.name}: file = {name!r} lies outside the data set; put the log beside {path.name}")
-
-
-def described(name: str, columns: Sequence[Mapping[str, Any]], logs: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """A description of bare logs.
-
-    Args:
-        name: of the data set.
-        columns: of every log, in order: `name`, `role` ("time", "input", "output" or "-"), `unit`, `variable`, `noise`.
-        logs: `file`, `kind`, `use`, and for stepped sines `offset`, `amplitude`, `frequency`.
-    Raises:
-        BadInput: no time, no input or no output among the columns.
-    """
-    roles = [column["role"] for column in columns]
-    if roles.count("time") != 1 or "input" not in roles or "output" not in roles:
-        raise BadInput("columns: choose one as time, and at least one input and one output")
-    own = [column for column in columns if column["role"] in ("input", "output")]
-    keys = ("role", "unit", "variable", "noise")
-    names = [{"time": "time", "-": "-"}.get(column["role"], column["name"]) for column in columns]
-    inputs = [column["name"] for column in own if column["role"] == "input"]
-    told = {"input": inputs[0]} if len(inputs) > 1 else {}
-    clock = next(column["name"] for column in columns if column["role"] == "time")
-    records = [
-        {**log, "columns": names, **_called(log["file"], clock), **(told if log["kind"] == STEPPED_SINE.name else {})}
-        for log in logs
-    ]
-    signals = {column["name"]: {key: column.get(key) for key in keys} for column in own}
-    return {"dataset": {"name": name, "description": "dropped as logs"}, "signals": signals, "records": records}
-
-
-def _called(file: str, clock: str) -> dict[str, str]:
-    """What a log calls its time, where that is another name and counts."""
-    return {"time": clock} if clock != "time" and names_its_columns(Path(file)) else {}

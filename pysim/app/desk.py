@@ -12,7 +12,6 @@ from typing import Any
 from nicegui import run
 
 from pysim.app.answers import Answer, Answers
-from pysim.app.disk import remove
 from pysim.app.history import History
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
 from pysim.app.project import Project
@@ -126,19 +125,45 @@ class Desk:
 
     async def example(self, name: str) -> None:
         """Take an example into the project, read it and hold the model beside it; `trouble` says what fails."""
-        self.doing, self.trouble = f"Making the example {name}", ""
-        self.changed()
         try:
-            await asyncio.wrap_future(self.runner.worker.ask("example", name))
+            await self._do(f"Making the example {name}", "example", name)
         except (BadInput, Ended) as error:
             self.trouble = str(error) or "the example was not made; open it again"
+        await self.read()
+        if not self.trouble and not self.model_trouble:
+            self.start(self.work("compare"))
+
+    async def describe(self, columns: Sequence[Mapping[str, Any]], kind: str) -> None:
+        """Make the logs a data set; as they were dropped they are kept as an earlier one.
+
+        Args:
+            columns, kind: as `bare_logs.describe_logs` takes them.
+        Raises:
+            BadInput: work is running, or what has to be chosen otherwise.
+        """
+        self._free_to_change()
+        await self._do("Reading the logs", "describe", columns, kind)
+        await self.read_data()
+
+    async def _do(self, words: str, task: str, *given: Any) -> None:
+        """Let the worker put other data or models into the project."""
+        self.doing, self.trouble = words, ""
+        self.changed()
+        try:
+            await self._ask(task, *given)
         finally:
             self.doing = ""
             self.history.begin_anew()
             self.changed()
-        await self.read()
-        if not self.trouble and not self.model_trouble:
-            self.start(self.work("compare"))
+
+    async def _ask(self, task: str, *given: Any) -> Any:
+        """What the worker answers."""
+        return await asyncio.wrap_future(self.runner.worker.ask(task, *given))
+
+    @property
+    def check(self) -> DataCheck | None:
+        """What the data set holds; None where there is none that can be read."""
+        return self.loaded.check if self.loaded else None
 
     @property
     def sketches(self) -> dict[str, Any]:
@@ -186,6 +211,9 @@ class Desk:
             raise BadInput("a drop is being taken over; try again in a moment")
         self.last = None
         self.runner.start(work)
+        deleted = self.project.settings().deleted
+        if work.name in deleted:  # it is made anew
+            self.project.change(deleted=tuple(one for one in deleted if one != work.name))
         self.changed()
 
     def work(self, command: str) -> Work:
@@ -209,10 +237,10 @@ class Desk:
         else:
             self.start(adding(self.project, added))
 
-    async def check(self) -> None:
+    async def check_with_model(self) -> None:
         """Look at the logs beside the model's answers: signs, units, and columns that are swapped."""
         self._free_to_change()
-        check = await asyncio.wrap_future(self.runner.worker.ask("checked"))
+        check = await self._ask("checked")
         if self.loaded is not None:
             self.loaded = replace(self.loaded, check=check)
             self.changed()
@@ -230,7 +258,7 @@ class Desk:
             raise BadInput(f"there is another law {name} already; give this one another name")
         file.parent.mkdir(exist_ok=True)
         write_file(file, content)
-        self.model = await asyncio.wrap_future(self.runner.worker.ask("model"))
+        self.model = await self._ask("model")
         self.add(name)
 
     def change(self, **settings: Any) -> None:
@@ -280,7 +308,7 @@ class Desk:
         self.changed()
 
     def _free_to_change(self) -> None:
-        if self.runner.running is not None:
+        if self.runner.running is not None or self.taking or self.doing:
             raise BadInput("wait until the running work has ended, or stop it")
 
     def choose(self, added: tuple[str, ...]) -> None:
@@ -289,15 +317,21 @@ class Desk:
         self.changed()
 
     def delete(self, answer: Answer) -> None:
-        """Remove a result with all its files.
+        """Show a result no more; undo brings it back, for as long as this server runs.
 
         Raises:
-            BadInput: work is running, or another program has a file of it.
+            BadInput: work is running.
         """
         self._free_to_change()
-        remove(answer.folder, self.project.uploads)
-        if self.project.settings().added == answer.added:
-            self.project.change(added=())
+        now = self.project.settings()
+        added = () if now.added == answer.added else now.added
+        self.project.change(deleted=(*now.deleted, answer.folder.name), added=added)
+        self.changed()
+
+    def name(self, added: Sequence[str], name: str) -> None:
+        """Call the model with some effects otherwise; "" takes its name from it."""
+        names = {**self.project.settings().named, "+".join(added): " ".join(name.split())}
+        self.project.change(names=tuple(f"{key}={one}" for key, one in names.items() if one))
         self.changed()
 
     def undo(self) -> None:
@@ -375,7 +409,7 @@ class Desk:
         if self.runner.running is not None or self.model_busy:
             raise BadInput("wait until the running work has ended; then open the report again")
         try:
-            await asyncio.wrap_future(self.runner.worker.ask("report", name))
+            await self._ask("report", name)
         except Ended as error:
             raise BadInput("the report was not finished; open it again") from error
 

@@ -23,6 +23,7 @@ from pysim.workflow import class_name_of
 RUNNING, DONE, STOPPED, FAILED = "running", "done", "stopped", "failed"
 _JOB = "job.json"
 ANSWER, RECORDS, EVENTS, OUTPUT = "answer.json", "records.npz", "events.jsonl", "output.txt"
+CURVES = "curves.json"  # one log beside the best point so far
 REPORT = "report"  # folder of what can be taken away, and of the checkpoint
 _PATIENCE = 3.0  # s between asking a process that somebody else has begun to end, and ending it
 
@@ -59,6 +60,7 @@ class Job:
         fingerprint: of what it was run on.
         stage: what it is doing, in a few words.
         trials: points of its search: `names`, `error` and `values`.
+        curves: one log beside the best point, as `followed_overlay` takes it; None before there is one.
         message: why it failed.
         process: that does it; None where it has ended.
     """
@@ -70,6 +72,7 @@ class Job:
     fingerprint: str
     stage: str = ""
     trials: tuple[dict[str, Any], ...] = ()
+    curves: dict[str, Any] | None = None
     message: str = ""
     process: Started | None = None
 
@@ -149,7 +152,7 @@ def read_job(folder: Path) -> Job | None:
         work = Work(head["work"]["name"], head["work"]["title"], words, effects)
         job = Job(work, head["state"], head["begun"], head["ended"], head["fingerprint"], message=head["message"])
         process = head.get("process")
-        job = replace(job, process=process and Started(int(process["pid"]), str(process["began"])))
+        job = replace(job, process=process and Started(int(process["pid"]), float(process["began"])))
     except (OSError, ValueError, KeyError, TypeError):
         return None
     return _with_events(job, folder)
@@ -173,6 +176,8 @@ def _with_events(job: Job, folder: Path) -> Job:
                 lines.append(json.loads(line))
     if not lines:
         return job
+    with contextlib.suppress(OSError, ValueError):
+        job = replace(job, curves=json.loads((folder / CURVES).read_text(encoding="utf-8")))
     return replace(job, stage=lines[-1]["stage"], trials=tuple(one["trial"] for one in lines if one.get("trial")))
 
 
@@ -218,7 +223,8 @@ class Runner:
         if before is not None and (before.fingerprint != now or before.state == DONE):
             remove(folder, self.project.uploads)  # of other data or another model, or to be done anew
         folder.mkdir(parents=True, exist_ok=True)
-        (folder / EVENTS).unlink(missing_ok=True)
+        for name in (EVENTS, CURVES):
+            (folder / name).unlink(missing_ok=True)
         job = Job(work, RUNNING, time.time(), None, now, stage="starting", process=self.worker.warm())
         _write_job(job, folder)
         self._answer, self._job, self._stopped = self.worker.ask("step", work), job, False

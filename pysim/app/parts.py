@@ -16,7 +16,6 @@ from pysim.app.upload import Limits
 from pysim.io import shown_value
 
 _STATIC = Path(__file__).parent / "static"
-_PULSE = 0.3  # s between two looks at what has changed
 
 assert nicegui.elements.plotly
 
@@ -73,6 +72,8 @@ class Sliders(Element, component=str(_STATIC / "sliders.js")):
         on_bound: gets the name, "min" or "max", and the value.
     """
 
+    follows = True
+
     def __init__(
         self,
         rows: Sequence[Mapping[str, Any]],
@@ -101,6 +102,8 @@ class Table(Element, component=str(_STATIC / "table.js")):
         on_row: receives the row that was picked.
         on_tick: receives the row, and whether it is ticked.
     """
+
+    follows = True
 
     def __init__(
         self,
@@ -176,7 +179,44 @@ class Drawing(Element, component=str(_STATIC / "drawing.js")):
         self.update()
 
 
-class Choice(Element, component=str(_STATIC / "choice.js")):
+class _Field(Element):
+    """What a user chooses or types there is shown, until what is built anew says otherwise."""
+
+    follows = True
+
+    def _begin(self, value: object, put: Callable[[Any], Any]) -> None:
+        def told(given: Any) -> None:
+            self._props["value"] = given
+            self._props["stamp"] += 1
+            self.update()
+            put(given)
+
+        self._props["value"], self._props["stamp"] = value, 0
+        self.on("put", lambda event: told(event.args))
+
+
+class Entry(_Field, component=str(_STATIC / "entry.js")):
+    """A field; what is written there is handed over when it is left.
+
+    Args:
+        label: for those who cannot see it.
+        put: receives what is written; of a box to tick, whether it is ticked.
+        props: "type=checkbox" makes it a box to tick.
+        tag: "input", or "textarea" for several lines.
+        each: whether it is handed over with each letter.
+    """
+
+    def __init__(
+        self, label: str, value: object, put: Callable[[Any], Any], props: str = "type=text", *, tag: str = "input",
+        each: bool = False,
+    ) -> None:  # fmt: skip
+        super().__init__()
+        self.props(props)
+        self._props.update({"aria-label": label, "tag": tag, "each": each})
+        self._begin(value, put)
+
+
+class Choice(_Field, component=str(_STATIC / "choice.js")):
     """One of a list of texts.
 
     Args:
@@ -186,13 +226,8 @@ class Choice(Element, component=str(_STATIC / "choice.js")):
 
     def __init__(self, label: str, options: Sequence[str], chosen: str, on_pick: Callable[[str], Any]) -> None:
         super().__init__()
-        self._props["label"], self._props["options"], self._props["chosen"] = label, list(options), chosen
-
-        def pick(one: str) -> None:
-            self._props["chosen"] = one
-            on_pick(one)
-
-        self.on("pick", lambda event: pick(str(event.args)))
+        self._props["label"], self._props["options"] = label, list(options)
+        self._begin(chosen, on_pick)
 
 
 class Drop(Element, component=str(_STATIC / "drop.js")):
@@ -256,25 +291,6 @@ def say(words: str, *, bad: bool = False) -> None:
     """A sentence that goes away by itself; an error stays until it is read."""
     kind = {"type": "negative", "timeout": 0, "close_button": "Close"} if bad else {"type": "positive", "timeout": 3500}
     ui.notify(words, position="bottom-left", multi_line=True, **kind)  # type: ignore[arg-type]
-
-
-def live(key: Callable[[], object], build: Callable[[], Any], kind: str = "") -> Element:
-    """A part that is built anew whenever its key changes, in every tab."""
-    place = box(kind) if kind else ui.element("div")
-    known: list[object] = []
-
-    def look() -> None:
-        now = key()
-        if known and known[0] == now:
-            return
-        known[:] = [now]
-        place.clear()
-        with place:
-            build()
-
-    look()
-    ui.timer(_PULSE, look)
-    return place
 
 
 def curve(shown: Mapping[str, Any] | None) -> None:

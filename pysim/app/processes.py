@@ -11,10 +11,11 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from pysim.app.began import began
+import psutil
 
 _TASKKILL_LIMIT = 10.0  # s; it answers at once
 _NAP = 0.02  # s
+_SAME = 2.0  # s: the system's clock may be set between two looks; a number is not given out again that soon
 
 
 @dataclass(frozen=True)
@@ -23,21 +24,21 @@ class Started:
 
     Args:
         pid: its number.
-        began: word of its beginning; "" where it had ended before anybody could ask.
+        began: s since 1970; 0 where it had ended before anybody could ask.
     """
 
     pid: int
-    began: str
+    began: float
 
     @classmethod
     def of(cls, pid: int) -> Started:
         """The process that has this number now."""
-        return cls(pid, began(pid))
+        return cls(pid, _began(pid))
 
     @property
     def lives(self) -> bool:
         """Whether it still runs."""
-        return bool(self.began) and began(self.pid) == self.began
+        return self.began > 0 and abs(_began(self.pid) - self.began) < _SAME
 
     def end(self, patience: float) -> bool:
         """End it with all that it has started, though somebody else has started it; whether it has ended.
@@ -60,6 +61,15 @@ class Started:
                 return False
             time.sleep(_NAP)
         return True
+
+
+def _began(pid: int) -> float:
+    """When the process that has this number now began; 0 where none runs, or one that waits for its parent to ask."""
+    try:
+        process = psutil.Process(pid)
+        return 0.0 if process.status() == psutil.STATUS_ZOMBIE else float(process.create_time())
+    except psutil.Error:
+        return 0.0
 
 
 def end_all(pid: int, *, hard: bool) -> None:

@@ -6,6 +6,7 @@ import contextlib
 import hashlib
 import os
 import re
+import shutil
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
@@ -33,6 +34,8 @@ class Settings:
         added: effects that the model has now, in order.
         look: of the page, one of LOOKS.
         bounds: of parameters that differ from the model's, as `--bounds` takes them: "d=20:60".
+        deleted: folders of results that are not shown; the next server removes them.
+        names: of branches: effects, joined by "+", "=" and what the user calls the model with them.
     """
 
     model: str = ""
@@ -41,6 +44,13 @@ class Settings:
     added: tuple[str, ...] = ()
     look: str = "auto"
     bounds: tuple[str, ...] = ()
+    deleted: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
+
+    @property
+    def named(self) -> dict[str, str]:
+        """Effects, joined by "+" -> name of their branch."""
+        return {key: name for key, _, name in (one.partition("=") for one in self.names)}
 
     @property
     def ranges(self) -> dict[str, tuple[float, float]]:
@@ -179,6 +189,15 @@ class Project:
         else:
             (self.folder / VALUES).unlink(missing_ok=True)
 
+    def purge(self) -> None:
+        """Remove results that were deleted: what could bring them back is gone with the server before."""
+        gone = self.settings().deleted
+        for folder in (self.folder / "results").glob("*") if gone else ():
+            if folder.name in gone:
+                shutil.rmtree(folder, ignore_errors=True)
+        if gone:
+            self.change(deleted=())
+
     def use_model(self, name: str, libraries: tuple[str, ...]) -> None:
         """Another model, with its own values and nothing added."""
         if name != self.settings().model:
@@ -242,9 +261,9 @@ class Project:
         return self._told(place)
 
     def earlier_data(self) -> list[Path]:
-        """Data sets in whose place others were dropped, the last one first."""
-        found = (self.folder / "earlier").glob("data-*/dataset.toml")
-        return sorted((path.parent for path in found), key=lambda path: -int(path.name.rpartition("-")[2]))
+        """Data sets, or logs that were described later, in whose place others came; the last one first."""
+        found = [path for path in (self.folder / "earlier").glob("data-*") if path.name.removeprefix("data-").isdigit()]
+        return sorted(found, key=lambda path: -int(path.name.rpartition("-")[2]))
 
     def replace_models(self, paths: Sequence[Path]) -> str:
         """Take files and folders, each of another name, into `model`; those of the same names are kept as data are.

@@ -86,6 +86,18 @@ def measured_overlay(record: MeasuredRecord, raw: Record | None = None) -> Overl
     return Overlay(data.names, units, (), tuple(lines))
 
 
+def followed_overlay(found: Mapping[str, Any]) -> Overlay:
+    """A log beside the model at some values of its parameters, as `Followed.curves` gives it."""
+    units, scales = _shown(found["units"])
+    time, words, lines = np.array(found["time"]), "with these values", []
+    for k, scale in enumerate(scales):
+        measured, simulated, left = (np.array(found[key][k]) for key in ("measured", "simulated", "left"))
+        lines.append(Line("measured", "measured", 2 * k + 1, units[k], time, measured * scale))
+        lines.append(Line("last", words, 2 * k + 1, units[k], time, simulated * scale))
+        lines.append(Line("last", words, 2 * k + 2, "times the noise", time, left))
+    return Overlay(tuple(found["names"]), units, (("last", words),), tuple(lines))
+
+
 def raw_of(raw: Dataset, record: MeasuredRecord) -> Record | None:
     """A log before it was prepared, and before a step cut it into parts."""
     own = PurePosixPath(record.source)

@@ -7,6 +7,7 @@ import contextlib
 import json
 import shutil
 import socket
+import tempfile
 import webbrowser
 from pathlib import Path
 from secrets import token_urlsafe
@@ -38,13 +39,7 @@ _BROKE_OFF = "the drop broke off, or another one has begun since; drop it again"
 
 
 def serve(
-    folder: Path,
-    *,
-    host: str = "127.0.0.1",
-    port: int = 0,
-    show: bool = True,
-    limits: Limits,
-    limit_s: float = 3600.0,
+    folder: Path, *, host: str = "127.0.0.1", port: int = 0, show: bool = True, limits: Limits, limit_s: float = 3600.0
 ) -> None:
     """Show a project until the process is ended.
 
@@ -88,6 +83,7 @@ class Holder(contextlib.ExitStack):
         with contextlib.ExitStack() as new:
             new.enter_context(held(project.folder))(self._address)
             settle(project)
+            project.purge()
             shutil.rmtree(project.uploads, ignore_errors=True)  # what came in half when a server ended
             self.close()
             self.push(new.pop_all())
@@ -263,6 +259,16 @@ def _routes(desk: Desk) -> None:
     def same_steps() -> Response:
         return Response(notebook(desk.project), media_type="application/x-ipynb+json")
 
+    @app.get("/commands/{name}")
+    def commands(name: str) -> Response:
+        answer = next((one for one in desk.answers.all if one.job.work.name == name), None)
+        if answer is None or "plan" not in answer.data["files"]:
+            return PlainTextResponse("there is no plan of a test", 404)
+        try:
+            return Response(played(answer.folder / answer.data["files"]["plan"]), media_type="application/zip")
+        except BadInput as error:
+            return PlainTextResponse(str(error), 409)
+
     @app.get("/result/{name}/{file:path}")
     async def result(name: str, file: str) -> Response:
         path = (desk.project.folder / "results" / name / file).resolve()
@@ -278,6 +284,15 @@ def _routes(desk: Desk) -> None:
         return FileResponse(path, filename=path.name, content_disposition_type="inline" if shown else "attachment")
 
 
+def played(plan: Path) -> bytes:
+    """A .zip of what a bench plays for a plan: a CSV file per run, a table of them, the dataset.toml of the logs."""
+    from pysim.bench import read_plan, write_commands
+
+    with tempfile.TemporaryDirectory() as place:
+        write_commands(read_plan(plan), Path(place) / "next_test", logs="csv")
+        return Path(shutil.make_archive(f"{place}/next_test", "zip", f"{place}/next_test")).read_bytes()
+
+
 def _choose(project: Project, adopted: Adopted) -> None:
     """What was dropped is what is worked with from now on."""
     settings = project.settings()
@@ -287,7 +302,7 @@ def _choose(project: Project, adopted: Adopted) -> None:
 
 def overlay_of(desk: Desk, of: str, record: int) -> Overlay | None:
     """A record of the data set (`of` is "data" or "prepared"), or beside the models of a result; None without one."""
-    check = desk.loaded.check if desk.loaded else None
+    check = desk.check
     if check is None or not 0 <= record < len(check.dataset.logs()):
         return None
     log = check.dataset.logs()[record]

@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
+import math
 import shutil
+import time
 from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
+from pysim.app.bare_logs import describe_logs
 from pysim.app.followed import Followed
-from pysim.app.jobs import ANSWER, EVENTS, OUTPUT, RECORDS, REPORT, Work, laws_of, read_job
+from pysim.app.jobs import ANSWER, CURVES, EVENTS, OUTPUT, RECORDS, REPORT, Work, laws_of, read_job
 from pysim.app.project import Project
 from pysim.app.worker import said_in
 from pysim.diagnosis import Session, Settings, add, compare, diagnose, learn, rank
@@ -24,7 +30,7 @@ from pysim.present.diagnosis import Diagnosed, answered, files
 from pysim.present.model import Inside
 from pysim.present.progress import EventFile
 from pysim.present.report import CHECKPOINT, PAGE, mark, with_places
-from pysim.types import BadInput, Diagnosis, ProgressEvent
+from pysim.types import BadInput, Diagnosis, ProgressEvent, SimulationError
 from pysim.workflow import (
     SessionParts,
     command_line,
@@ -38,6 +44,8 @@ from pysim.workflow import (
     whole_answer,
     write_extended,
 )
+
+_DRAWING = 0.1  # of the time of a search goes into curves at most
 
 
 class Tasks:
@@ -68,6 +76,13 @@ class Tasks:
         data = Data(found.raw, found.raw, (), found.units, found.units, {}).after(*found.steps)
         return data.check(opened_model(settings.model, library=settings.libraries)).result
 
+    def describe(self, columns: Sequence[Mapping[str, Any]], kind: str) -> None:
+        """Make a data set of the logs that nobody has described yet."""
+        coming = self._project.uploads / "described"
+        shutil.rmtree(coming, ignore_errors=True)
+        describe_logs(self._project.data, columns, kind, coming)
+        self._project.replace_data(coming)
+
     def example(self, name: str) -> None:
         """Take the logs, the library and the model of an example into the project."""
         own, coming = EXAMPLES[name], self._project.uploads / "example"
@@ -95,7 +110,7 @@ class Tasks:
         folder = self._project.results(work.name)
         with said_in(folder / OUTPUT):
             tell = EventFile(folder / EVENTS)
-            result = self._result(work, tell)
+            result = self._result(work, self._drawing(tell, folder / CURVES))
             tell(ProgressEvent("writing files"))
             for name, content in files(result).items():
                 write_file(folder / REPORT / name, content)
@@ -104,6 +119,24 @@ class Tasks:
             write_stages(folder / RECORDS, result.found.history)
             write_file(folder / ANSWER, json.dumps(data(whole), indent=1, allow_nan=False))
             mark(folder / REPORT, beside)
+
+    def _drawing(self, tell: Callable[[ProgressEvent], None], file: Path) -> Callable[[ProgressEvent], None]:
+        """Tells of a search, and draws one log beside each better point of the base model, in a share of its time."""
+        best, pause_until, number = math.inf, 0.0, self._followed[0][0] if self._followed else 0
+
+        def told(event: ProgressEvent) -> None:
+            nonlocal best, pause_until
+            one, begun = event.trial, time.monotonic()
+            if one is not None and not one.names and one.error < best and begun > pause_until:
+                best = one.error
+                with contextlib.suppress(BadInput, SimulationError):  # a fit may end where no log can be drawn
+                    found = self.curves(number, {**self._project.values(), **one.values})
+                    plain = {key: np.asarray(value).tolist() for key, value in found.items()}
+                    write_file(file, json.dumps({**plain, "error": best}))
+                pause_until = time.monotonic() + (time.monotonic() - begun) / _DRAWING
+            tell(event)
+
+        return told
 
     def report(self, name: str) -> None:
         """Draw the report of a result; one that is not kept goes on from its checkpoint, to its end."""

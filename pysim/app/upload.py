@@ -14,7 +14,8 @@ from secrets import token_urlsafe
 
 from pysim.app.description import refuse_outside
 from pysim.app.project import Project
-from pysim.io import DAMAGED, LOG_SUFFIXES, counted, same_file, unusable_name
+from pysim.io import DAMAGED, counted, same_file, unusable_name
+from pysim.io.load import READERS
 from pysim.types import BadInput
 
 _PIECE = 2**20
@@ -203,10 +204,10 @@ def adopt(batch: Batch, project: Project) -> Adopted:
         models = [path for path in _files(root) if path.suffix.lower() in (".fmu", ".mo")]
         if models:
             return _model(root, models, project)
-        logs = [path for path in _files(root) if path.suffix.lower() in LOG_SUFFIXES]
+        logs = [path for path in _files(root) if path.suffix.lower() in READERS]
         if not logs:
             found = ", ".join(sorted({path.suffix or path.name for path in _files(root)})[:6]) or "nothing"
-            taken = ", ".join(LOG_SUFFIXES)
+            taken = ", ".join(READERS)
             raise BadInput(f"no data set, no logs and no model in this: {found}; drop logs as {taken}")
         kept = project.replace_data(_single(root))
         text = f"{counted(len(logs), 'log')} without a dataset.toml; say below what their columns are{_kept(kept)}"

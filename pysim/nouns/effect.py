@@ -15,11 +15,11 @@ from pysim.types import Effect as Described
 
 if TYPE_CHECKING:
     from pysim.effects import Slot
-    from pysim.workflow.own_law import Range
+    from pysim.workflow.own_law import Given
 
 
 def effect(
-    name: str, *, at: str, law: str, model: Model | None = None, description: str = "", **parameters: Range
+    name: str, *, at: str, law: str, model: Model | None = None, description: str = "", **parameters: Given
 ) -> Effect:
     """Write the class of an effect from its formula.
 

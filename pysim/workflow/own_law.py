@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import product
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,12 +20,21 @@ if TYPE_CHECKING:
     from pysim.effects.law import Law
 
 Array = NDArray[np.float64]
-Range = Sequence[Any]  # lowest, highest, usual, unit
+Given = Sequence[Any]  # lowest, highest, usual, unit, as a user gives them
 _NAME = "own.law"  # of a law that has no name yet, in messages
 _WIDE = 10.0  # a range goes that far beyond the usual value, or that far below it
 # Where the search for values that follow a curve begins: shares of what their unit makes of its width and its height.
 _SHARES = (0.01, 0.03, 0.1, 0.3, 1.0)
 _MOST = 3  # parameters of which all combinations of shares are tried
+
+
+class Range(NamedTuple):
+    """Of a parameter of a law."""
+
+    low: float
+    high: float
+    usual: float
+    unit: str
 
 
 @dataclass(frozen=True)
@@ -63,7 +72,7 @@ class TypedLaw:
     """What a text says as far as it was typed.
 
     Args:
-        ranges: parameter -> lowest, highest and usual value, and unit.
+        ranges: of its parameters.
         curve: (m,) at the knots of the learned curve, at usual values and with what the model's own parameters may add
             to it; None where there is none, or where the law depends on more than that curve does.
     """
@@ -73,7 +82,7 @@ class TypedLaw:
 
 
 def typed_law(
-    law: str, place: LawPlace, learned: Mapping[str, Any] | None = None, ranges: Mapping[str, Range] | None = None
+    law: str, place: LawPlace, learned: Mapping[str, Any] | None = None, ranges: Mapping[str, Given] | None = None
 ) -> TypedLaw:
     """Read a law that is being typed; every name that the slot has not is a parameter of it.
 
@@ -87,16 +96,16 @@ def typed_law(
     from pysim.effects.law import Law
 
     equations = law_equations(_NAME, law, place.slot)
-    read, chosen = Law(dict(equations)), dict(ranges or {})
-    units = parameter_units(equations, {**place.units, **{name: own[3] for name, own in chosen.items() if own[3]}})
+    read, chosen = Law(dict(equations)), {name: Range(*own) for name, own in (ranges or {}).items()}
+    units = parameter_units(equations, {**place.units, **{name: own.unit for name, own in chosen.items() if own.unit}})
     named = dict.fromkeys(name for _, tree in equations for name in _names(tree))
     parameters = [name for name in named if name not in place.units and name not in read.values]
-    units |= {name: own[3] for name, own in chosen.items() if name in parameters and own[3]}
+    units |= {name: own.unit for name, own in chosen.items() if name in parameters and own.unit}
     kept = {name: own for name, own in chosen.items() if name in parameters}
     shaped = [EffectParameter(name, units.get(name) or "1", 0.0, 1.0, 1.0, 1.0, None) for name in parameters]
     law_class(class_name_of(_NAME), place.slot, law, shaped, with_standard(place.libraries))
     curve = None if learned is None else _Curve.of(read, place, learned, parameters)
-    values = {name: float(own[2]) for name, own in kept.items()}
+    values = {name: float(own.usual) for name, own in kept.items()}
     free = [name for name in parameters if name not in values]
     values |= dict.fromkeys(free, 1.0) if curve is None else curve.followed(free, values, units)
     linear = _linear(read, place.slot, values)
@@ -113,7 +122,7 @@ def _names(tree: Any) -> Any:
 def _usual_range(value: float, unit: str, is_strength: bool) -> Range:
     """A strength may be nothing, and on the other side too; what shapes a law keeps its sign."""
     low, high = sorted((0.0 if is_strength else value / _WIDE, _WIDE * value))
-    return [*((-_WIDE, _WIDE) if low == high else (low, high)), value, unit]
+    return Range(*((-_WIDE, _WIDE) if low == high else (low, high)), value, unit)
 
 
 @dataclass(frozen=True)
@@ -244,7 +253,7 @@ def effect_class(
     name: str,
     slot: Slot,
     law: str,
-    parameters: Mapping[str, Range],
+    parameters: Mapping[str, Given],
     libraries: Sequence[Path],
     *,
     description: str = "",
@@ -274,7 +283,7 @@ def effect_class(
     return law_class(class_name_of(name), slot, law, declared, places, effect=name, description=description)
 
 
-def _range(key: str, given: Range) -> tuple[float, float, float, str]:
+def _range(key: str, given: Given) -> Range:
     try:
         low, high, usual, unit = given
         low, high, usual = float(low), float(high), float(usual)
@@ -285,22 +294,22 @@ def _range(key: str, given: Range) -> tuple[float, float, float, str]:
             f"effect: {key} is usually {usual:g}, outside {low:g} to {high:g}; give lowest, highest, usual",
             argument=key,
         )
-    return low, high, usual, str(unit)
+    return Range(low, high, usual, str(unit))
 
 
-def _parameter(key: str, own: tuple[float, float, float, str], *, is_strength: bool) -> EffectParameter:
+def _parameter(key: str, own: Range, *, is_strength: bool) -> EffectParameter:
     low, high, usual, unit = own
     default, off = (0.0, 0.0) if is_strength else (usual, None)
     return EffectParameter(key, unit, low, high, usual, default, off)
 
 
-def _strengths(law: str, slot: Slot, ranges: Mapping[str, tuple[float, float, float, str]]) -> set[str]:
+def _strengths(law: str, slot: Slot, ranges: Mapping[str, Range]) -> set[str]:
     """Parameters without which nothing is left: their range holds 0, and the law vanishes only where they are there."""
     from pysim.effects import law_equations
     from pysim.effects.law import Law
 
     read = Law(dict(law_equations(_NAME, law, slot)))
-    usual = {key: own[2] or 0.5 * (own[1] if own[1] else own[0]) for key, own in ranges.items()}
+    usual = {key: own.usual or 0.5 * (own.high or own.low) for key, own in ranges.items()}
 
     def is_off(zeros: set[str]) -> bool:
         known = {key: 0.0 if key in zeros else value for key, value in usual.items()}

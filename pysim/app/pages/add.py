@@ -9,9 +9,10 @@ from typing import Any
 
 from pysim.app.answers import Answer, history
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.common import attempt, busy, doubts, ended, nothing, start
 from pysim.app.pages.moving import moving
-from pysim.app.parts import Chart, Table, box, button, card, head, live, note, text
+from pysim.app.parts import Chart, Entry, Table, box, button, card, head, note, text
 from pysim.present.criteria import CRITERIA
 from pysim.present.diagnosis.figures.criteria import criteria_chart
 from pysim.present.diagnosis.figures.error import error_chart
@@ -86,13 +87,17 @@ def _branches(desk: Desk) -> None:
     with card("Branches"):
         text("p", "Each model that was tried, and what it leaves in fitted and in held-out logs.", "small")
         first = next(iter(found.values()))
-        ends = [one.data["error"][-1] | {"step": " + ".join(added)} for added, one in found.items()]
+        named = desk.project.settings().named
+        names = {added: named.get("+".join(added), "") for added in found}
+        ends = [one.data["error"][-1] | {"step": names[added] or " + ".join(added)} for added, one in found.items()]
         figure = error_chart([read_step(s) for s in [*history(first, ())[-1:], *ends]])
         Chart(figure, f"Error over noise of {len(found)} branches", height=300)
         with box("tight"):
             for letter, (added, one) in zip(ascii_uppercase, found.items(), strict=False):
-                with box("row"):
-                    text("b", letter)
+                with box("row").mark(*added):
+                    rename = lambda name, added=added: attempt(lambda: desk.name(added, name))  # noqa: E731
+                    field = Entry(f"name of branch {letter}", names[added], rename, f'type=text placeholder="{letter}"')
+                    field.classes("field").style("width: 150px")
                     for name in added:
                         text("span", f"+ {name}", "chip")
                     if added == now:

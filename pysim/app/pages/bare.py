@@ -6,20 +6,18 @@ from functools import partial
 from pathlib import Path
 from typing import Any
 
-from nicegui import background_tasks, ui
-
-from pysim.app.bare_logs import KINDS, ROLES, SINE, bare_description, guesses, matched
-from pysim.app.description import change_description
+from pysim.app.bare_logs import KINDS, ROLES, SINE, guesses, matched
 from pysim.app.desk import Desk
-from pysim.app.pages.common import amount, attempt
-from pysim.app.parts import Choice, box, button, card, note, text
-from pysim.io import LOG_SUFFIXES, clock_column, column_names, counted, names_its_columns
+from pysim.app.pages.common import amount, attempted
+from pysim.app.parts import Choice, Entry, box, button, card, note, text
+from pysim.io import counted
+from pysim.io.load import READERS
 from pysim.types import UNITS, BadInput
 
 
 def describe_form(desk: Desk) -> None:
     """A row per column of the logs; what was chosen so far is kept until these logs are described or others come."""
-    logs = [path for path in sorted(desk.project.data.rglob("*")) if path.suffix.lower() in LOG_SUFFIXES]
+    logs = [path for path in sorted(desk.project.data.rglob("*")) if path.suffix.lower() in READERS]
     if not logs:
         return
     try:
@@ -30,22 +28,18 @@ def describe_form(desk: Desk) -> None:
         return
     columns = draft["columns"]
     with card("What are the columns of these logs?"):
-        text(
-            "p",
-            f"{counted(len(logs), 'log')}, {len(columns)} columns, as {logs[0].name} has them. "
-            "A dash leaves a column out; the noise may be left empty.",
-            "small",
-        )
+        told = f"{counted(len(logs), 'log')}, {len(columns)} columns, as {logs[0].name} has them. "
+        text("p", f"{told}A dash leaves a column out; the noise may be left empty.", "small")
         with box("form").style("grid-template-columns: 1.2fr 0.8fr 0.8fr 1.6fr 0.8fr"):
             for words in ("column", "is", "unit", "variable of the model", "noise"):
                 text("span", words, "head")
-            for column in columns:
-                _row(desk, column, fixed=names_its_columns(logs[0]))
+            for number, column in enumerate(columns, 1):
+                _row(desk, column, number)
         with box("row"):
             text("span", "They are")
             with box("form").style("width: 220px"):
                 Choice("kind of the logs", KINDS, draft["kind"], partial(_set, draft, "kind"))
-            button("Use these logs", lambda: _use(desk, logs, columns, draft["kind"]), "main")
+            button("Use these logs", lambda: attempted(desk.describe(columns, draft["kind"])), "main", off=desk.doing)
 
 
 def _draft(desk: Desk, logs: list[Path]) -> dict[str, Any]:
@@ -53,22 +47,16 @@ def _draft(desk: Desk, logs: list[Path]) -> dict[str, Any]:
     key = tuple((path, path.stat().st_mtime_ns) for path in logs)
     if desk.draft.get("key") != key:
         sines = all("hz" in path.stem.lower() for path in logs)
-        headings = column_names(logs[0])
-        clock, _ = clock_column(logs[0], headings, [one == "-" for one in headings])
-        columns = guesses(headings, clock, fixed=names_its_columns(logs[0]))
+        columns = guesses(READERS[logs[0].suffix.lower()](logs[0])[0])
         desk.draft = {"key": key, "kind": SINE if sines else "other", "columns": columns}
     for column in desk.draft["columns"]:
         matched(column, (desk.model or {}).get("variables", []))
     return desk.draft
 
 
-def _row(desk: Desk, column: dict[str, Any], *, fixed: bool) -> None:
-    """One column; a file that knows its columns by name keeps their names."""
-    name = ui.element("input").props("type=text")
-    name._props["aria-label"], name._props["value"] = f"name of column {column['number']}", column["name"]
-    name._props["disabled"] = fixed
-    name.on("change", lambda event: _set(column, "name", event.args), js_handler="(e) => emit(e.target.value)")
-    label = f"of column {column['number']}"
+def _row(desk: Desk, column: dict[str, Any], number: int) -> None:
+    Entry(f"name of column {number}", column["name"], partial(_set, column, "name"))
+    label = f"of column {number}"
     Choice(f"role {label}", ROLES, column["role"], partial(_set, column, "role"))
     Choice(f"unit {label}", ("", *UNITS), column["unit"], partial(_set, column, "unit"))
     variables = [str(v[0]) for v in (desk.model or {}).get("variables", [])]
@@ -79,12 +67,3 @@ def _row(desk: Desk, column: dict[str, Any], *, fixed: bool) -> None:
 
 def _set(one: dict[str, Any], key: str, value: Any) -> None:
     one[key] = str(value).strip() if key == "name" else value
-
-
-def _use(desk: Desk, logs: list[Path], columns: list[dict[str, Any]], kind: str) -> None:
-    def write() -> None:
-        content = bare_description(desk.project.data, logs, columns, kind)
-        change_description(desk.project.description, content)
-
-    if attempt(write):
-        background_tasks.create(desk.read_data())

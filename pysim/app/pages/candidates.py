@@ -9,9 +9,10 @@ from nicegui import ui
 
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
-from pysim.app.pages.common import attempt, busy, ended, nothing, start
+from pysim.app.live import live
+from pysim.app.pages.common import attempt, busy, ended, nothing, played, start
 from pysim.app.pages.moving import moving
-from pysim.app.parts import box, button, card, curve, head, live, text
+from pysim.app.parts import box, button, card, curve, head, text
 
 
 def candidates_page(desk: Desk) -> None:
@@ -70,15 +71,20 @@ def _verdict(answer: Answer) -> None:
         for group in answer.data["confusable"]:
             text("p", f"These data cannot tell {' and '.join(group)} apart.", "note")
         if "next_test_about" in answer.data:
-            text("p", f"The test that would: {answer.data['next_test_about']}", "note")
+            with box("note row"):
+                text("span", f"The test that would: {answer.data['next_test_about']}")
+                if "plan" in answer.data["files"]:
+                    played(answer)
 
 
 def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups: list[set[str]]) -> None:
     name = str(row["effect"])
     known = next((one for one in (desk.model or {}).get("effects", []) if one["name"] == name), None)
     tied = any(name in group for group in groups)
-    with box(f"candidate {'first' if rank == 1 and 'score' in row else ''} {'tied' if tied else ''}").props(
-        'role="listitem"'
+    with (
+        box(f"candidate {'first' if rank == 1 and 'score' in row else ''} {'tied' if tied else ''}")
+        .props('role="listitem"')
+        .mark(name)
     ):
         text("span", str(rank) if "score" in row else "·", "rank")
         curve(desk.sketches.get(name))
@@ -111,7 +117,7 @@ def _trying(desk: Desk, name: str) -> None:
     if name in desk.project.settings().added:
         text("span", "in the model", "chip good")
     elif any(one["name"] == name for one in (desk.model or {}).get("effects", [])):  # a sensor's error is none of them
-        button("Try", lambda: _try(desk, name), "small", off=busy(desk))
+        button("Try", lambda: _try(desk, name), "small", off=busy(desk)).mark(name)
 
 
 def _gain(row: Mapping[str, Any], top: float) -> None:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 from functools import partial
 from typing import Any
+from urllib.parse import quote
 
 from nicegui import ui
 
@@ -12,7 +13,9 @@ from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.disk import disk_trouble
 from pysim.app.jobs import FAILED, STOPPED, Work
-from pysim.app.parts import box, button, note, say, text
+from pysim.app.parts import Chart, Entry, box, button, note, say, text
+from pysim.app.records import MOST, Overlay
+from pysim.app.worker import Ended
 from pysim.types import BadInput
 
 
@@ -20,13 +23,25 @@ def attempt(action: Callable[[], object]) -> bool:
     """Do what a button says; what cannot be is said in a sentence."""
     try:
         action()
-    except BadInput as error:
-        say(str(error), bad=True)
-        return False
-    except OSError as error:
-        say(str(disk_trouble(error)), bad=True)
+    except (BadInput, OSError) as error:
+        _refused(error)
         return False
     return True
+
+
+async def attempted(work: Awaitable[object]) -> bool:
+    """The same, of what takes a while."""
+    try:
+        await work
+    except (BadInput, OSError, Ended) as error:
+        _refused(error)
+        return False
+    return True
+
+
+def _refused(error: Exception) -> None:
+    told = disk_trouble(error) if isinstance(error, OSError) else error
+    say(str(told) or "the process that did it broke down; press again", bad=True)
 
 
 def start(desk: Desk, work: Callable[[], Work], *, then: str = "") -> None:
@@ -38,19 +53,19 @@ def start(desk: Desk, work: Callable[[], Work], *, then: str = "") -> None:
 def busy(desk: Desk) -> str:
     """Why nothing can be started now; "" where something can."""
     if desk.runner.running is not None:
-        return f"{desk.runner.running.work.title} is running"
+        return f"Wait until {desk.runner.running.work.title} has ended"
     if desk.doing:
         return desk.doing
-    check = desk.loaded.check if desk.loaded else None
-    if check is None or not check.records:
-        return "Drop a data set first"
+    if desk.check is None or not desk.check.records:
+        bare = desk.project.data.is_dir() and not desk.project.description.is_file()
+        return "Say what the columns of the logs are, on the page Data" if bare else "Drop a data set on the page Data"
     if desk.loaded is not None and desk.loaded.refused:
-        return "Some logs were refused; mend them or leave them out on the page Data"
+        return "Mend the logs that were refused, or leave them out, on the page Data"
     if desk.loaded is not None and desk.loaded.empty_cells:
-        return "Some cells are empty; fill them, or cut them out, on the page Prepare"
+        return "Fill the cells that are empty, or cut them out, on the page Prepare"
     if not desk.project.settings().model:
         return "Name a model first"
-    return "The model is being built" if desk.model_busy else desk.model_trouble and "The model cannot be used"
+    return "Wait until the model is built" if desk.model_busy else desk.model_trouble and "Name another model"
 
 
 def ended(desk: Desk) -> None:
@@ -85,6 +100,12 @@ def doubts(answer: Answer) -> None:
                 text("p", line)
 
 
+def played(answer: Answer) -> None:
+    """What a bench plays for the next test, to take away."""
+    link = text("a", "Download its commands as CSV", "plain")
+    link._props["href"], link._props["download"] = f"/commands/{quote(answer.folder.name)}", "next_test.zip"
+
+
 def nothing(title: str, words: str) -> None:
     """Where there is nothing to show yet."""
     with box("card empty"):
@@ -103,8 +124,6 @@ def segments(options: list[tuple[str, str]], chosen: str, pick: Callable[[str], 
 
 def amount(value: Any, put: Callable[[float | None], Any], label: str, *, signed: bool = False) -> None:
     """A number that may be left empty."""
-    field = ui.element("input").props(f"type=number step=any {'' if signed else 'min=0'}")
-    field._props["aria-label"], field._props["value"] = label, "" if value is None else value
 
     def changed(written: str) -> None:
         try:
@@ -112,4 +131,19 @@ def amount(value: Any, put: Callable[[float | None], Any], label: str, *, signed
         except ValueError:
             say(f"{label}: {written!r} is no number; write one, or leave it empty", bad=True)
 
-    field.on("change", lambda event: changed(str(event.args)), js_handler="(e) => emit(e.target.value)")
+    props = f"type=number step=any {'' if signed else 'min=0'}"
+    Entry(label, "" if value is None else value, changed, props)
+
+
+def record_chart(
+    overlay: Overlay, of: str, number: int, label: str, height: int,
+    on_range: Callable[[tuple[float, float] | None], Any] | None = None,
+) -> None:  # fmt: skip
+    """A log over time, whose samples are fetched by window.
+
+    Args:
+        of, number: as the address /series takes them.
+    """
+    place, traces = f"/series?of={of}&record={number}", list(range(len(overlay.lines)))
+    series = {"url": place, "traces": traces, "span": overlay.span, "most": MOST}
+    Chart(overlay.figure(), label, height=height, series=series, on_range=on_range)

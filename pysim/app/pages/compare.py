@@ -12,10 +12,11 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.error_map import ErrorMap, error_maps
-from pysim.app.pages.common import busy, doubts, ended, nothing, segments, start
+from pysim.app.live import live
+from pysim.app.pages.common import busy, doubts, ended, nothing, record_chart, segments, start
 from pysim.app.pages.moving import moving
-from pysim.app.parts import Chart, Table, box, button, card, head, live, quantity, text
-from pysim.app.records import MOST, compared_overlay, measured_overlay, stage_keys
+from pysim.app.parts import Chart, Table, box, button, card, head, quantity, text
+from pysim.app.records import compared_overlay, measured_overlay, stage_keys
 from pysim.app.working_point import command_unit, response_unit, working_point
 from pysim.present.comparison.figures import bode_chart
 from pysim.present.diagnosis.figures.where import map_chart
@@ -55,10 +56,7 @@ def _answer(desk: Desk) -> Answer | None:
 
 def _top(desk: Desk) -> None:
     answer = _answer(desk)
-    head(
-        "Measured and simulated",
-        "Every log beside the model; residuals in standard deviations of the noise.",
-    )
+    head("Measured and simulated", "Every log beside the model; residuals in standard deviations of the noise.")
     ended(desk)
     if answer is not None:
         doubts(answer)
@@ -79,7 +77,7 @@ def _top(desk: Desk) -> None:
 def _maps(desk: Desk, view: _View) -> None:
     """Which record to open: the error over offset, amplitude and frequency, and over the time of other logs."""
     answer = _answer(desk)
-    check = desk.loaded.check if desk.loaded else None
+    check = desk.check
     if answer is None or check is None:
         return
     keys = stage_keys(answer)
@@ -88,11 +86,7 @@ def _maps(desk: Desk, view: _View) -> None:
         with box("row end"):
             text("h2", "Where the error is")
             segments([(key, words) for key, words, _ in keys], chosen[0], lambda key: _set(view, model=key), "Model")
-        text(
-            "p",
-            "Residual in standard deviations of the noise. Click a cell to open its record.",
-            "small",
-        )
+        text("p", "Residual in standard deviations of the noise. Click a cell to open its record.", "small")
         for k, one in enumerate(error_maps(chosen[2], check.dataset)):
             figure = map_chart(one.rows, one.columns, one.values, one.title, scale=not k)
             label = f"Map of the error: {len(one.rows)} rows, {len(one.columns)} columns"
@@ -120,7 +114,7 @@ def _set(view: _View, **values: Any) -> None:
 
 def _record(desk: Desk, view: _View) -> None:
     """One record with all models, and the list of all."""
-    check = desk.loaded.check if desk.loaded else None
+    check = desk.check
     logs = check.dataset.logs() if check else ()
     if check is None or not logs:
         if check is None or not check.records:
@@ -143,12 +137,9 @@ def _record(desk: Desk, view: _View) -> None:
             "Drag to zoom, double click for all; with the keyboard: arrows, + and −, 0. Grey holds 95 % of noise.",
             "small",
         )
-        series = {"url": f"/series?of={of}&record={number}", "traces": list(range(len(overlay.lines)))}
         panels = len(overlay.names) * (1.6 if overlay.models else 1.0)
-        Chart(
-            overlay.figure(), f"{source}: measured and simulated over time", height=round(120 + 165 * panels),
-            series={**series, "span": overlay.span, "most": MOST},
-        )  # fmt: skip
+        label, height = f"{source}: measured and simulated over time", round(120 + 165 * panels)
+        record_chart(overlay, of, number, label, height)
     _list(view, check.dataset, errors, number)
 
 
@@ -204,7 +195,7 @@ def _told(value: float | None) -> str:
 def _bode(desk: Desk, view: _View) -> None:
     """A frequency response with the band of Table 1.3 and its verdict."""
     answer = _answer(desk)
-    check = desk.loaded.check if desk.loaded else None
+    check = desk.check
     if answer is None or check is None or not answer.base["responses"]:
         return
     tests = answer.base["responses"]

@@ -11,33 +11,42 @@ from nicegui import background_tasks, ui
 
 from pysim.app.description import change_description, hold_out, leave_out, read_description
 from pysim.app.desk import Desk, Loaded
+from pysim.app.live import live
 from pysim.app.pages.bare import describe_form
-from pysim.app.pages.common import amount, attempt, busy, ended, start
+from pysim.app.pages.common import amount, attempt, busy, ended, record_chart, start
 from pysim.app.pages.start import examples, projects
-from pysim.app.parts import Chart, Choice, Drop, Table, box, button, card, head, live, note, quantity, say, text
-from pysim.app.records import MOST, measured_overlay
+from pysim.app.parts import Choice, Drop, Entry, Table, box, button, card, head, note, quantity, say, text
+from pysim.app.records import measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted
 from pysim.present.data_check import sentence
 from pysim.present.notes import NOT_FITTED
 from pysim.types import UNITS, BadInput, Record
 
+_NO_SLOTS = (
+    "The class has no slots, so the page can fit it and show where it fails, but not add what is missing. A slot is a "
+    "part that is replaceable and whose filling gives 0; docs/tutorials/own_model.md shows one."
+)
+_NUMBERS = ("factor", "offset", "noise", "resolution")  # of a signal
 MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
 
 
 def data_page(desk: Desk) -> None:
     """Data and model."""
     preview: dict[str, int] = {}
+    named: dict[str, str] = {}
     head("Data and model", "Drop what the bench has logged, name the model, and look at what was read.")
     live(lambda: (desk.project.empty, desk.doing), lambda: examples(desk) if desk.project.empty else None, "gap")
     live(lambda: desk.version, lambda: _ready(desk), "gap")
     Drop(
         "Drop a data set here",
-        "A folder, a .zip or single logs (text, CSV, LabVIEW, Parquet). An .fmu or a Modelica library is the model.",
+        "A folder, a .zip or single logs: text, CSV, LabVIEW, Excel, MATLAB, Parquet. "
+        "The model is an .fmu or a Modelica library.",
         limits=desk.limits, on_text=lambda words, good: say(words, bad=not good),
     )  # fmt: skip
-    live(lambda: desk.version, lambda: _model(desk), "gap")
+    live(lambda: desk.version, lambda: _model(desk, named), "gap")
     live(lambda: desk.version, lambda: _data(desk), "gap")
+    live(lambda: (desk.version, _described(desk)), lambda: _signals(desk), "gap")
     live(lambda: (desk.version, preview.get("record")), lambda: _records(desk, preview), "gap")
     live(lambda: desk.version, lambda: _earlier(desk), "gap")
     live(lambda: desk.version, lambda: projects(desk) if desk.project.empty else None, "gap")
@@ -46,7 +55,10 @@ def data_page(desk: Desk) -> None:
 def _ready(desk: Desk) -> None:
     """What to do next."""
     ended(desk)
-    if busy(desk) and desk.runner.running is None:
+    why = busy(desk)
+    if why and desk.runner.running is None:
+        if not desk.project.empty:
+            note(f"Next: {why[0].lower()}{why[1:]}.")
         return
     with box("card row end"):
         with box("tight"):
@@ -64,19 +76,22 @@ def _ready(desk: Desk) -> None:
             button("Find what is missing", find, "main", off=busy(desk))
 
 
-def _model(desk: Desk) -> None:
+def _model(desk: Desk, named: dict[str, str]) -> None:
+    """The model that is used; `named` holds what this tab has typed."""
     settings, info = desk.project.settings(), desk.model
     with card("Model"):
         with box("row"):
             names = list(dict.fromkeys([*MODELS, *([settings.model] if settings.model else [])]))
-            field = (
-                ui.input(value=settings.model, autocomplete=names)
-                .props("dense outlined")
-                .style("width: 430px; max-width: 100%")
-            )
-            field.props('aria-label="Modelica class, or the name of an .fmu below model"')
+            own = [Path(one).stem for one in settings.libraries]  # a class of that name, or a package of classes
+            name = named.get("name", settings.model or next(iter(own), ""))
+            label = "Modelica class, or the name of an .fmu below model"
+            field = Entry(label, name, lambda words: named.update(name=words), "type=text list=models spellcheck=false")
+            field.classes("field").style("width: 430px; max-width: 100%")
+            with ui.element("datalist").props("id=models"):
+                for one in dict.fromkeys([*own, *names]):
+                    ui.element("option")._props["value"] = one
             off = "Wait until the running work has ended" if desk.runner.running else ""
-            button("Use this model", lambda: _use(desk, str(field.value)), "" if settings.model else "main", off=off)
+            button("Use this model", lambda: _use(desk, named, name), "" if settings.model else "main", off=off)
             if desk.model_busy:
                 box("spin")
                 text("span", "building the model; the first on a machine takes some minutes on Windows", "small")
@@ -94,13 +109,16 @@ def _model(desk: Desk) -> None:
                     told, ("state", "parameter", "slot", "effect"), ("", " with bounds", "", " that fit"), strict=True
                 ):
                     text("span", f"{counted(count, word)}{more}", "chip")
-            if not info["slots"]:
+            if info["structure"] is None:
                 note("Its Modelica class is not at hand, so no effect can be added; drop its library above.")
+            elif not info["slots"]:
+                note(_NO_SLOTS)
 
 
-def _use(desk: Desk, name: str) -> None:
-    project = desk.project
+def _use(desk: Desk, named: dict[str, str], name: str) -> None:
+    project, name = desk.project, named.get("name", name)
     if attempt(lambda: project.use_model(project.model_name(name), project.settings().libraries)):
+        named.clear()
         background_tasks.create(desk.read_model())
 
 
@@ -115,7 +133,6 @@ def _data(desk: Desk) -> None:
         describe_form(desk)
     else:
         _refused(desk, loaded)
-        _signals(desk, loaded.check)
 
 
 def _refused(desk: Desk, loaded: Loaded) -> None:
@@ -152,18 +169,28 @@ def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = Fa
     background_tasks.create(desk.read_data())
 
 
-def _signals(desk: Desk, check: DataCheck) -> None:
+def _described(desk: Desk) -> int:
+    """When the description was written, though by another program."""
+    path = desk.project.description
+    return path.stat().st_mtime_ns if path.is_file() else 0
+
+
+def _signals(desk: Desk) -> None:
     """Which column is which variable of the model, its unit in the files, and its noise."""
+    check = desk.check
+    if check is None:
+        return
     content = read_description(desk.project.description)
     variables = [] if desk.model is None else [str(v[0]) for v in desk.model["variables"]]
     with card("Signals"):
         text(
             "p",
-            "Noise is one standard deviation in the unit of the files; left empty, it is seen in the logs.",
+            "Signal = factor × column + offset, in this unit: a factor of −1 turns a sign, volts become bar. "
+            "Noise is one standard deviation; left empty, it is estimated from the logs.",
             "small",
         )
-        with box("form").style("grid-template-columns: 1.1fr 0.7fr 0.7fr 1.5fr 0.8fr 0.8fr"):
-            for words in ("signal", "role", "unit in the files", "variable of the model", "noise", "resolution"):
+        with box("form").style("grid-template-columns: 1.1fr 0.6fr 0.7fr 1.5fr repeat(4, 0.8fr)"):
+            for words in ("signal", "role", "unit", "variable of the model", *_NUMBERS):
                 text("span", words, "head")
             for name, section in content["signals"].items():
                 _signal(desk, name, section, variables)
@@ -186,12 +213,12 @@ def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[s
         Choice(f"variable for {name}", options, variable, lambda value: put("variable", value))
     else:
         text("span", variable)
-    for key in ("noise", "resolution"):
-        amount(section.get(key), partial(put, key), f"{key} of {name}")
+    for key in _NUMBERS:
+        amount(section.get(key), partial(put, key), f"{key} of {name}", signed=key in ("factor", "offset"))
 
 
 def _records(desk: Desk, preview: dict[str, int]) -> None:
-    check = desk.loaded.check if desk.loaded else None
+    check = desk.check
     if check is None or not check.records:
         return
     columns = [("record", "words"), (NOT_FITTED, "tick"), ("kind", "words"), ("rows", "number"), ("s", "number")]
@@ -205,11 +232,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     held = sum(record.use != "fit" for record in check.records)
     read = [record.source for record in check.records]
     with card(f"{counted(len(check.records), 'record')}, {held} {NOT_FITTED}"):
-        text(
-            "p",
-            f"What is {NOT_FITTED} shows how well the model predicts. Click a row to see it.",
-            "small",
-        )
+        text("p", f"What is {NOT_FITTED} shows how well the model predicts. Click a row to see it.", "small")
         Table(
             "Records", columns, [_row(record) for record in check.records], height="360px",
             on_row=lambda k: preview.update(record=k), picked=preview.get("record", -1),
@@ -219,12 +242,8 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     if number is not None:
         log = check.dataset.logs()[number]
         overlay = measured_overlay(log)
-        series = {"url": f"/series?of=data&record={number}", "traces": list(range(len(overlay.lines)))}
         with card(log.source):
-            Chart(
-                overlay.figure(), f"{log.source} over time", height=110 + 130 * len(overlay.names),
-                series={**series, "span": overlay.span, "most": MOST},
-            )  # fmt: skip
+            record_chart(overlay, "data", number, f"{log.source} over time", 110 + 130 * len(overlay.names))
 
 
 def _earlier(desk: Desk) -> None:
@@ -234,11 +253,11 @@ def _earlier(desk: Desk) -> None:
         return
     with card("Earlier data sets"), box("tight"):
         for folder in earlier:
-            with box("row"):
+            with box("row").mark(folder.name):
                 off = "Wait until the running work has ended" if desk.runner.running else ""
                 button(f"Bring back {folder.name}", partial(_bring_back, desk, folder), "small", off=off)
-                logs = sum(path.is_file() for path in folder.rglob("*")) - 1
-                text("span", f"{counted(logs, 'file')} beside its dataset.toml", "small")
+                found = [path.name for path in folder.rglob("*") if path.is_file()]
+                text("span", counted(len(found), "file") + ", described" * ("dataset.toml" in found), "small")
 
 
 def _bring_back(desk: Desk, folder: Path) -> None:

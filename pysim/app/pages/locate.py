@@ -6,11 +6,12 @@ from collections.abc import Mapping
 from typing import Any
 
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.candidates import effect_row
 from pysim.app.pages.common import busy, ended, nothing, start
 from pysim.app.pages.moving import moving
 from pysim.app.pages.write import Writing
-from pysim.app.parts import Chart, Drawing, box, button, card, live, note, text
+from pysim.app.parts import Chart, Drawing, box, button, card, note, text
 from pysim.present.diagnosis.figures.law import law_chart
 
 _Found = Mapping[str, Mapping[str, Any]]
@@ -19,9 +20,10 @@ _Found = Mapping[str, Mapping[str, Any]]
 def locate_page(desk: Desk) -> None:
     """Where something is missing."""
     chosen: dict[str, str] = {}
+    laws: dict[str, Writing] = {}
     live(lambda: desk.version, lambda: _build(desk, chosen), "gap")
     moving(desk)
-    live(lambda: (desk.version, chosen.get("slot")), lambda: _below(desk, chosen), "gap")
+    live(lambda: (desk.version, chosen.get("slot")), lambda: _below(desk, chosen, laws), "gap")
 
 
 def _found(desk: Desk) -> _Found:
@@ -107,7 +109,7 @@ def _place(
     }  # fmt: skip
 
 
-def _below(desk: Desk, chosen: dict[str, str]) -> None:
+def _below(desk: Desk, chosen: dict[str, str], laws: dict[str, Writing]) -> None:
     """What the chosen slot would need, and which effects may stand there."""
     found, slots = _found(desk), _slots(desk)
     name = chosen.get("slot", "")
@@ -124,7 +126,7 @@ def _below(desk: Desk, chosen: dict[str, str]) -> None:
         if one is None and found:
             text("p", "No law was learned here: other places explain more.", "note")
         if name in slots:
-            Writing(desk, name, one, chart)
+            laws.setdefault(name, Writing(desk, name)).show(one, chart)
     _effects(desk, name)
     answer = desk.answers.newest("missing")
     for line in answer.data["notes"] if answer is not None else ():

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import asyncio
-from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -11,12 +10,12 @@ from nicegui import background_tasks
 
 from pysim.app.description import BEGINS, begin_logs, begins, read_description
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.common import attempt, busy, nothing
 from pysim.app.pages.data import change
-from pysim.app.parts import Chart, Choice, Sliders, box, button, card, head, live, say, text
+from pysim.app.parts import Chart, Choice, Sliders, box, button, card, head, say, text
+from pysim.app.records import followed_overlay
 from pysim.app.worker import Ended
-from pysim.io import shown_unit
-from pysim.present.overlay import overlay_chart, signal_trace
 from pysim.types import BadInput
 
 
@@ -29,8 +28,7 @@ def model_page(desk: Desk) -> None:
 
 
 def _logs(desk: Desk) -> tuple[str, ...]:
-    check = desk.loaded.check if desk.loaded else None
-    return tuple(log.source for log in check.dataset.logs()) if check else ()
+    return tuple(log.source for log in desk.check.dataset.logs()) if desk.check else ()
 
 
 class _Follows:
@@ -99,7 +97,7 @@ class _Follows:
         fitted = settings.free or (*suggested(self._desk), *settings.ranges)
         written = replace(settings, free=()).ranges
         rows = []
-        for one in (self._desk.model or {})["parameters"]:
+        for one in (self._desk.model or {}).get("parameters", []):  # none while it is built anew
             if one["start"] is not None:
                 low, high = written.get(one["name"], (one["min"], one["max"]))
                 own = {"value": set_.get(one["name"], one["start"]), "fitted": one["name"] in fitted}
@@ -183,7 +181,7 @@ class _Follows:
             return
         rms = zip(found["names"], found["rms"], strict=True)
         self._state.set_text("Residual over noise: " + ", ".join(f"{name} {value:.3g}" for name, value in rms))
-        figure = _figure(found)
+        figure = followed_overlay(found).figure()
         if self._chart is None:
             with self._place:
                 self._chart = Chart(figure, "Measured and simulated", height=70 + 155 * len(found["names"]))
@@ -196,20 +194,3 @@ def suggested(desk: Desk) -> tuple[str, ...]:
     """Parameters that are fitted where nobody has chosen: all that the model gives bounds and a usual size."""
     rows = (desk.model or {}).get("parameters", [])
     return tuple(one["name"] for one in rows if None not in (one["min"], one["max"], one["nominal"], one["start"]))
-
-
-def _figure(found: Mapping[str, Any]) -> dict[str, Any]:
-    """Each signal as measured and as the sliders have it, and what is left over below."""
-    units, traces, time = [], [], found["time"].tolist()
-    for k, unit in enumerate(found["units"]):
-        shown, scale = shown_unit(unit)
-        units.append(shown)
-        for key, values, panel, of in (
-            ("measured", found["measured"][k] * scale, 2 * k + 1, shown),
-            ("last", found["simulated"][k] * scale, 2 * k + 1, shown),
-            ("last", found["left"][k], 2 * k + 2, "times the noise"),
-        ):
-            words = "measured" if key == "measured" else "as the sliders say"
-            first = not k and panel == 1
-            traces.append(signal_trace(key, words, panel, time, values.tolist(), legend=first, unit=of))
-    return dict(overlay_chart(found["names"], units, [("last", "as the sliders say")], traces))

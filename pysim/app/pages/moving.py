@@ -6,7 +6,9 @@ from typing import Any
 
 from pysim.app.desk import Desk
 from pysim.app.jobs import Job
-from pysim.app.parts import Chart, Table, box, card, live, text
+from pysim.app.live import live
+from pysim.app.parts import Chart, Table, box, card, text
+from pysim.app.records import followed_overlay
 from pysim.present.diagnosis.figures.search import left_over, search_chart
 
 
@@ -28,6 +30,8 @@ class _Moving:
             self._head = text("h2", "")
             self._words = text("p", "", "statement").props('aria-live="polite"')
             self._chart = Chart(search_chart(()), "Residual over noise, point by point", height=300)
+            self._curves: Chart | None = None
+            self._beside = box("")
             with box("two"):
                 self._left = _table("What each model leaves", "model", "× noise")
                 self._values = _table("Parameters of the best one", "parameter", "value")
@@ -46,6 +50,15 @@ class _Moving:
         self._chart.show(search_chart(job.trials), f"Residual over noise: {ranked[0][0]} {ranked[0][1]:.3g}")
         self._left.show([[name, _cell(error)] for name, error in ranked])
         self._values.show([[name, _cell(value)] for name, value in best["values"].items()])
+        if not job.curves:
+            return
+        overlay = followed_overlay(job.curves)
+        label, figure = f"The log with the best values, {job.curves['error']:.3g} times the noise", overlay.figure()
+        if self._curves is None:
+            with self._beside:
+                self._curves = Chart(figure, label, height=70 + 130 * len(overlay.names))
+        else:
+            self._curves.show(figure, label)
 
 
 def _table(label: str, *columns: str) -> Table:

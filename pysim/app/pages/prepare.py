@@ -6,16 +6,13 @@ from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
-from nicegui import ui
-
 from pysim.app.description import moved, put_steps, read_description
 from pysim.app.desk import Desk
-from pysim.app.pages.common import attempt, nothing
+from pysim.app.live import live
+from pysim.app.pages.common import attempt, attempted, nothing, record_chart
 from pysim.app.pages.data import change
-from pysim.app.parts import Chart, Choice, box, button, card, head, live, say, text
-from pysim.app.records import MOST, measured_overlay
-from pysim.app.worker import Ended
-from pysim.identify.data_check import DataCheck
+from pysim.app.parts import Choice, Entry, box, button, card, head, text
+from pysim.app.records import measured_overlay
 from pysim.io.prepare import Step, call, step_of, values_of
 from pysim.io.toml_section import Section
 from pysim.present.data_check.words import cures, sentence
@@ -57,13 +54,9 @@ class _View:
         self._window: tuple[float, float] | None = None
         self._signal, self._number = _ALL, ""
 
-    @property
-    def _check(self) -> DataCheck | None:
-        return self._desk.loaded.check if self._desk.loaded else None
-
     def lights(self) -> None:
         """A light per log, and what cures what was found."""
-        check = self._check
+        check = self._desk.check
         if check is None or not check.dataset.logs():
             nothing("No logs yet", "Drop logs on the page Data.")
             return
@@ -71,10 +64,11 @@ class _View:
             off = self._desk.model_busy or self._desk.runner.running is not None or self._desk.model is None
             words = "Name a model, and wait until nothing runs" if off else ""
             with box("row"):
-                button("Check signs and units with the model", self._checked, "small", off=words)
+                check_ = lambda: attempted(self._desk.check_with_model())  # noqa: E731
+                button("Check signs and units with the model", check_, "small", off=words)
             for k, log in enumerate(check.dataset.logs()):
                 found = [one for one in check.findings if one.source == log.source]
-                with box("row"):
+                with box("row").mark(log.source):
                     light = "bad" if any(one.cure for one in found) else "" if found else "good"
                     text("span", {"bad": "✗ mend", "": "? look", "good": "✓ ready"}[light], f"chip {light}")
                     button(log.source, partial(self._look_at, k), "small" if k != self.log else "small main")
@@ -82,25 +76,18 @@ class _View:
                     for step in cures(found):
                         button(call(step), partial(self._add, step), "small")
 
-    async def _checked(self) -> None:
-        try:
-            await self._desk.check()
-        except (BadInput, Ended) as error:
-            say(str(error) or "the process that simulates broke down; press again", bad=True)
-
     def _look_at(self, number: int) -> None:
         self.log, self._window = number, None
 
     def look(self) -> None:
         """The log that was picked, as it was logged and as the steps make it."""
-        check = self._check
+        check = self._desk.check
         if check is None or not check.dataset.logs():
             return
         logs = check.dataset.logs()
         self.log = min(self.log, len(logs) - 1)
         log = logs[self.log]
         overlay = measured_overlay(log, self._desk.raw_of(log))
-        series = {"url": f"/series?of=prepared&record={self.log}", "traces": list(range(len(overlay.lines)))}
         with card():
             with box("row end"):
                 text("h2", log.source)
@@ -109,11 +96,8 @@ class _View:
                     button("Keep this stretch", self._keep, "small")
                     button("Cut it out", self._cut, "small")
             text("p", "Drag over a stretch to zoom in, then keep it or cut it out. Double click shows all.", "small")
-            Chart(
-                overlay.figure(), f"{log.source} as it was logged and as it is prepared",
-                height=80 + 130 * len(overlay.names), on_range=self._zoomed,
-                series={**series, "span": overlay.span, "most": MOST},
-            )  # fmt: skip
+            label, height = f"{log.source} as it was logged and as it is prepared", 80 + 130 * len(overlay.names)
+            record_chart(overlay, "prepared", self.log, label, height, self._zoomed)
         self._zoomed(self._window)
 
     def _zoomed(self, window: tuple[float, float] | None) -> None:
@@ -130,9 +114,9 @@ class _View:
         def put() -> None:
             if self._window is None:
                 raise BadInput("no stretch is chosen; drag over a part of the figure first")
-            assert self._check is not None
+            assert self._desk.check is not None
             ends = dict(zip(("start", "stop"), (float(f"{end:.6g}") for end in self._window), strict=True))
-            self._insert({"step": word, **of(self._check.dataset.logs()[self.log].source), **ends})
+            self._insert({"step": word, **of(self._desk.check.dataset.logs()[self.log].source), **ends})
             self._window = None
 
         attempt(put)
@@ -150,17 +134,15 @@ class _View:
 
     def steps(self) -> None:
         """The chain: switch off, reorder, remove."""
-        if self._check is None and not self._content():
+        if self._desk.check is None and not self._content():
             return
         chain = self._content()
         with card("Steps, in this order"):
             if not chain:
                 text("p", "None yet: the logs are taken as they are.", "small")
             for k, one in enumerate(chain):
-                with box("row step"):
-                    tick = ui.element("input").props("type=checkbox")
-                    tick._props["checked"], tick._props["aria-label"] = not one.get("off"), f"step {k + 1} is done"
-                    tick.on("change", partial(self._turn, k))
+                with box("row step").mark(_typed(one)):
+                    Entry(f"step {k + 1} is done", not one.get("off"), partial(self._turn, k), "type=checkbox")
                     text("span", f"{k + 1}. {_typed(one)}", "mono dim" if one.get("off") else "mono")
                     for words, by, end in (("↑", -1, 0), ("↓", 1, len(chain) - 1)):
                         off = "Nothing lies beyond" if k == end else ""
@@ -169,9 +151,9 @@ class _View:
                     press = button("Remove", partial(self._move, k, 0), "small quiet")
                     press._props["aria-label"] = f"remove step {k + 1}"
 
-    def _turn(self, number: int) -> None:
+    def _turn(self, number: int, on: bool) -> None:
         chain = self._content()
-        chain[number] = {**chain[number], "off": not chain[number].get("off", False)}
+        chain[number] = {**chain[number], "off": not on}
         change(self._desk, lambda content: put_steps(content, chain))
 
     def _move(self, number: int, by: int) -> None:
@@ -179,7 +161,7 @@ class _View:
 
     def adder(self) -> None:
         """One more step."""
-        check = self._check
+        check = self._desk.check
         if check is None:
             return
         word, field, unit = _KINDS[self.kind]
@@ -195,12 +177,7 @@ class _View:
                     Choice("signal of the step", options, self._signal, partial(self._set, "_signal"))
                 if field:
                     text("span", unit, "head")
-                    number = ui.element("input").props("type=number step=any")
-                    number._props["aria-label"], number._props["value"] = "number of the step", self._number
-                    number.on(
-                        "change", lambda event: self._set("_number", str(event.args)),
-                        js_handler="(e) => emit(e.target.value)",
-                    )  # fmt: skip
+                    Entry("number of the step", self._number, partial(self._set, "_number"), "type=number step=any")
             button("Add", lambda: attempt(self._made), "main")
 
     def _set(self, key: str, value: str) -> None:
@@ -222,8 +199,8 @@ class _View:
 
     @property
     def _shown(self) -> Dataset:
-        assert self._check is not None
-        return self._check.dataset
+        assert self._desk.check is not None
+        return self._desk.check.dataset
 
 
 def _typed(section: Mapping[str, Any]) -> str:

@@ -6,10 +6,10 @@ from collections.abc import Callable
 from functools import partial
 
 from nicegui import ui
-from nicegui.elements.mixins.text_element import TextElement
 
 from pysim.app.desk import Desk
 from pysim.app.jobs import FAILED
+from pysim.app.live import live
 from pysim.app.pages.add import add_page
 from pysim.app.pages.candidates import candidates_page
 from pysim.app.pages.common import attempt
@@ -21,7 +21,7 @@ from pysim.app.pages.model import model_page
 from pysim.app.pages.prepare import prepare_page
 from pysim.app.pages.start import start_page
 from pysim.app.pages.take import take_page
-from pysim.app.parts import box, button, live, text
+from pysim.app.parts import box, button, text
 from pysim.app.project import LOOKS
 from pysim.io import counted
 
@@ -62,7 +62,7 @@ def shell(desk: Desk) -> None:
                 ui.html(_MARK, sanitize=False)
                 text("span", "Workbench")
             live(lambda: desk.version, lambda: _what(desk), "what")
-            live(lambda: (desk.version, desk.runner.running is None), lambda: _job(desk))
+            live(lambda: (desk.beat, _seconds(desk)), lambda: _job(desk))
             live(lambda: (len(desk.history.past), len(desk.history.future)), lambda: _undo(desk), "turns")
             live(lambda: desk.project.settings().look, lambda: _look_button(desk))
             button("? Help", turn, "quiet")
@@ -121,7 +121,7 @@ def _look_button(desk: Desk) -> None:
 
 def _what(desk: Desk) -> None:
     """Data set and model."""
-    check = desk.loaded.check if desk.loaded else None
+    check = desk.check
     model = desk.project.settings().model
     text("b", check.dataset.name if check else "no data set yet")
     text("span", "against")
@@ -134,19 +134,15 @@ def _seconds(desk: Desk) -> int:
 
 
 def _job(desk: Desk) -> None:
-    """What runs, with the time that it may still take, and a button that stops it; what became of it.
-
-    The button stays the same while the words beside it change, so that no press of it is lost.
-    """
+    """What runs, for how long, and a button that stops it; what became of it."""
     job = desk.runner.running
     with box("row").props('role="status" aria-live="polite"'):
         if job is not None:
             with box("job"):
                 box("spin")
-                stage = text("span", job.stage, "stage").props(f'title="{job.work.title.replace(chr(34), "")}"')
-                time = text("span", clock(job.seconds), "time")
+                text("span", job.stage, "stage")._props["title"] = job.work.title
+                text("span", clock(job.seconds), "time")
                 button("Stop", desk.runner.stop, "small")
-                live(lambda: (desk.beat, _seconds(desk)), lambda: _tell(desk, stage, time), "unseen")
         elif desk.doing:
             with box("job"):
                 box("spin")
@@ -156,13 +152,6 @@ def _job(desk: Desk) -> None:
         elif desk.last is not None:
             words = {"done": "Done", "stopped": "Stopped"}[desk.last.state]
             text("span", f"{words} after {clock(desk.last.seconds)}", f"chip {'good' if words == 'Done' else ''}")
-
-
-def _tell(desk: Desk, stage: TextElement, time: TextElement) -> None:
-    job = desk.runner.running
-    if job is not None:
-        stage.set_text(job.stage)
-        time.set_text(clock(job.seconds))
 
 
 def clock(seconds: float) -> str:
@@ -192,7 +181,7 @@ def _rail(desk: Desk) -> None:
 
 def _states(desk: Desk) -> list[tuple[str, bool]]:
     """Per page a few words and whether it has something to show."""
-    check = desk.loaded.check if desk.loaded else None
+    check = desk.check
     answers = desk.answers
     settings, values = desk.project.settings(), desk.project.values()
     compared, ranked = answers.with_effects(()), answers.newest("ranking")

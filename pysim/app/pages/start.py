@@ -9,8 +9,9 @@ from pathlib import Path
 from nicegui import background_tasks, ui
 
 from pysim.app.desk import Desk
+from pysim.app.live import live
 from pysim.app.pages.common import attempt
-from pysim.app.parts import box, button, card, head, live, text
+from pysim.app.parts import box, button, card, head, text
 from pysim.app.recent import recent
 
 _EXAMPLES = {
@@ -64,7 +65,7 @@ def projects(desk: Desk) -> None:
         return
     with card("Recent projects"), box("tight"):
         for folder in others:
-            with box("row"):
+            with box("row").mark(folder.name):
                 button(folder.name, partial(_open, desk, folder), "small")
                 text("span", str(folder.parent), "small mono")
 

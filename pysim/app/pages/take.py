@@ -8,8 +8,9 @@ from nicegui import ui
 
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
-from pysim.app.pages.common import nothing
-from pysim.app.parts import box, button, card, head, live, say, text
+from pysim.app.live import live
+from pysim.app.pages.common import nothing, played
+from pysim.app.parts import box, button, card, head, say, text
 
 _FILES = (
     (
@@ -40,11 +41,7 @@ def _build(desk: Desk) -> None:
             text("p", f"The model with {' and '.join(added)}.", "statement")
         _files(answer)
     with card("Commands"):
-        text(
-            "p",
-            f"In the folder {desk.project.folder}; you can continue a stopped job on the command line.",
-            "small",
-        )
+        text("p", f"In the folder {desk.project.folder}; you can continue a stopped job on the command line.", "small")
         lines = commands(desk)
         text("pre", lines, "code").props('tabindex="0"')
         button("Copy", lambda: _copy(lines), "small")
@@ -72,6 +69,8 @@ def _files(answer: Answer) -> None:
                     words = "Open" if key == "report" else "Download"
                     link = text("a", words, "plain")
                     link._props["href"] = f"/result/{quote(answer.folder.name)}/{quote(files[key])}"
+                    if key == "plan":
+                        played(answer)
                     link._props["target" if key == "report" else "download"] = "_blank" if key == "report" else ""
     source = answer.folder / files["modelica"] if "modelica" in files else None
     if source is not None and source.is_file():

@@ -9,34 +9,40 @@ from typing import Any
 from nicegui import background_tasks, run, ui
 
 from pysim.app.desk import Desk
-from pysim.app.pages.common import amount, busy
-from pysim.app.parts import Chart, box, button, live, say, text
+from pysim.app.live import live
+from pysim.app.pages.common import amount, attempted, busy
+from pysim.app.parts import Chart, Entry, box, button, text
 from pysim.present.diagnosis.figures.law import law_chart
 from pysim.types import BadInput
 from pysim.workflow import LawPlace, typed_law
+from pysim.workflow.own_law import Range
 
-_EMIT = "(e) => emit(e.target.value)"
-_NUMBERS = ((0, "lowest"), (2, "usual"), (1, "highest"))  # of a range
+_NUMBERS = {"low": "lowest", "usual": "usual", "high": "highest"}  # fields of a range
 
 
 class Writing:
-    """One tab's law for one slot.
+    """One tab's law for one slot."""
 
-    Args:
-        learned: the law that was learned there, if one was.
-        chart: that shows it.
-    """
-
-    def __init__(self, desk: Desk, slot: str, learned: Mapping[str, Any] | None, chart: Chart | None) -> None:
-        self._desk, self._learned, self._chart = desk, learned, chart
-        project, model = desk.project, desk.model or {}
+    def __init__(self, desk: Desk, slot: str) -> None:
+        self._desk, self._slot = desk, slot
         self._law, self._name, self._trouble, self._wrong = "", f"my.{slot}", "", -1
-        self._ranges: dict[str, Any] = {}  # as they are shown
-        self._chosen: dict[str, Any] = {}  # by the user
+        self._ranges: dict[str, Range] = {}  # as they are shown
+        self._chosen: dict[str, Range] = {}  # by the user
         self._version = self._asked = 0
+        self._followed = True  # whether usual values come from the learned curve
+
+    def show(self, learned: Mapping[str, Any] | None, chart: Chart | None) -> None:
+        """As it is typed so far.
+
+        Args:
+            learned: the law that was learned there, if one was.
+            chart: that shows it.
+        """
+        self._learned, self._chart = learned, chart
+        project, model = self._desk.project, self._desk.model or {}
         try:
             libraries = [project.folder / one for one in project.settings().libraries]
-            self._place = LawPlace.of(str(model["class"]), slot, libraries)
+            self._place = LawPlace.of(str(model["class"]), self._slot, libraries)
         except (BadInput, KeyError):
             return
         self._build()
@@ -47,10 +53,11 @@ class Writing:
         words = ", ".join(f"{name} ({self._place.units.get(name) or 'any unit'})" for name in (*slot.sees, "time"))
         gives = ", ".join(f"{name} ({self._place.units.get(name) or 'any unit'})" for name in slot.gives)
         text("p", f"It gives {gives}. It may use {words}. Any other name becomes a parameter.", "small")
-        field = ui.element("textarea").classes("field mono").props("rows=2 spellcheck=false autocomplete=off")
-        field._props["aria-label"] = f"law for {slot.name}"
-        field._props["placeholder"] = f"-F_c*tanh({slot.sees[-1] if slot.sees else 'time'}/v_0)"
-        field.on("input", lambda event: self._typed(str(event.args)), js_handler=_EMIT)
+        props = "rows=2 spellcheck=false autocomplete=off"
+        field = Entry(f"law for {slot.name}", self._law, self._typed, props, tag="textarea", each=True)
+        field.classes("field mono")._props["placeholder"] = f"-F_c*tanh({[*slot.sees, 'time'][-1]}/v_0)"
+        if self._law:
+            self._typed(self._law)  # the curve anew
         live(lambda: self._version, self._rows, "tight")
 
     def _typed(self, law: str) -> None:
@@ -68,7 +75,9 @@ class Writing:
                 found = await run.io_bound(typed_law, law, self._place, self._learned, self._chosen)
                 if found is None:  # the server ends
                     return
-                self._ranges, curve = dict(found.ranges), found.curve
+                self._ranges = {name: self._chosen.get(name, one) for name, one in found.ranges.items()}
+                curve = found.curve
+                self._followed = curve is not None
             except BadInput as error:
                 self._trouble, self._wrong = str(error) if law.strip() else "", getattr(error, "place", -1)
             if self._chart is not None and self._learned is not None:
@@ -87,36 +96,31 @@ class Writing:
         elif self._law.strip():
             if self._ranges:
                 with box("form").style("grid-template-columns: 1fr 1fr 1fr 1fr 0.8fr"):
-                    for words in ("parameter", *(words for _, words in _NUMBERS), "unit"):
+                    for words in ("parameter", *_NUMBERS.values(), "unit"):
                         text("span", words, "head")
                     for name in self._ranges:
                         self._row(name)
+                if not self._followed:
+                    words = "No learned curve gives these values: they are guesses. Write those that you expect."
+                    text("p", words, "note")
             with box("row"):
-                field = ui.element("input").classes("field").props("type=text").style("width: 180px")
-                field._props["aria-label"], field._props["value"] = "name of the law", self._name
-                field.on("change", lambda event: setattr(self, "_name", str(event.args).strip()), js_handler=_EMIT)
+                named = lambda name: setattr(self, "_name", name.strip())  # noqa: E731
+                Entry("name of the law", self._name, named).classes("field").style("width: 180px")
                 button("Add and refit", self._add, "main", off=busy(self._desk))
 
     def _row(self, name: str) -> None:
         text("span", name, "mono")
-        for k, words in _NUMBERS:
-            value = float(f"{self._ranges[name][k]:.4g}")
-            amount(value, partial(self._choose, name, k), f"{words} of {name}", signed=True)
-        unit = ui.element("input").props("type=text")
-        unit._props["aria-label"], unit._props["value"] = f"unit of {name}", self._ranges[name][3]
-        unit.on("change", lambda event: self._choose(name, 3, str(event.args).strip()), js_handler=_EMIT)
+        for key, words in _NUMBERS.items():
+            value = float(f"{getattr(self._ranges[name], key):.4g}")
+            amount(value, partial(self._choose, name, key), f"{words} of {name}", signed=True)
+        Entry(f"unit of {name}", self._ranges[name].unit, lambda unit: self._choose(name, "unit", unit.strip()))
 
-    def _choose(self, name: str, number: int, value: Any) -> None:
+    def _choose(self, name: str, key: str, value: Any) -> None:
         """A range that the user has set stays while the law is written on."""
-        own = [*self._ranges[name]]
-        own[number] = own[number] if value is None else value
-        self._chosen[name] = own
+        if value is not None:
+            self._ranges[name] = self._chosen[name] = self._ranges[name]._replace(**{key: value})
         self._typed(self._law)
 
     async def _add(self) -> None:
-        try:
-            await self._desk.add_law(self._name, self._place, self._law, self._ranges)
-        except (BadInput, OSError) as error:
-            say(str(error), bad=True)
-        else:
+        if await attempted(self._desk.add_law(self._name, self._place, self._law, self._ranges)):
             ui.navigate.to("/add")

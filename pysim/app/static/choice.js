@@ -1,15 +1,17 @@
 // One of a list of plain texts.
 export default {
-  template: `<select :aria-label="label" v-model="value" @change="$emit('pick', value)">
+  template: `<select :aria-label="label" v-model="shown" @change="$emit('put', shown)">
       <option v-for="one in options" :key="one" :value="one">{{ one }}</option>
     </select>`,
-  props: { label: String, options: Array, chosen: String },
+  props: { label: String, options: Array, value: String, stamp: Number },
+  emits: ["put"],
   data() {
-    return { value: this.chosen };
+    return { shown: this.value };
   },
-  watch: {
-    chosen(now) {
-      this.value = now;
+  watch: { value: "show", stamp: "show" },
+  methods: {
+    show() {
+      this.shown = this.value;
     },
   },
 };

@@ -26,3 +26,8 @@ document.addEventListener("keydown", (event) => {
   event.preventDefault();
   emitEvent(name);
 });
+
+// Paper is light.
+let dark = false;
+addEventListener("beforeprint", () => (dark = document.body.classList.contains("body--dark")) && document.body.classList.remove("body--dark"));
+addEventListener("afterprint", () => dark && document.body.classList.add("body--dark"));

@@ -32,7 +32,9 @@ LANGUAGE: list[Row] = [
     ("model M Real x(start = 0, fixed = true); discrete Real a(start = 0); parameter Real limit = 3;\nequation\n"
      "der(x) = 1;\nwhen x > 1 then\nif limit > 2 then a = 1; else a = 2; end if;\nend when;\nend M;",
      5, "if-expression"),
-    ("package M end M;", 1, "M is a package; name a model"),
+    ("package M end M;", 1, "M is a package; name a model or a block$"),
+    ("package M partial model P end P; model N end N; function f end f; end M;", 1,
+     r"M is a package; name a model or a block, such as M\.N$"),
     ("\npartial model M\n  Real x;\nend M;", 2, "M is a partial model; name a model"),
 ]  # fmt: skip
 # line 1 is what the message then calls the first of the model

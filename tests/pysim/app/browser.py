@@ -185,6 +185,11 @@ class Tab:
             self.page.wait_for_timeout(700)
             self.page.screenshot(path=self._artefacts / f"{name}.png")
 
+    def print(self, name: str) -> None:
+        """Keep what paper shows as an artefact."""
+        if self._artefacts is not None:
+            self.page.pdf(path=self._artefacts / f"{name}.pdf", prefer_css_page_size=True)
+
     def foreign(self) -> list[str]:
         """Addresses that were asked of anybody else."""
         own = (self._base, self._base.replace("http", "ws"), "data:", "blob:")

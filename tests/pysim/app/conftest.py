@@ -44,8 +44,8 @@ def _address(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
 def show(_address: str) -> Show:
     """From a project's folder, made where it is missing, to the address of the workbench that shows it from then on."""
 
-    def shows(folder: Path, *, idle: bool = False, size: int = 256 * 2**20) -> str:
-        query = f"folder={folder}&idle={int(idle)}&size={size}"
+    def shows(folder: Path, *, idle: bool = False, size: int = 256 * 2**20, restless: bool = False) -> str:
+        query = f"folder={folder}&idle={int(idle)}&size={size}&restless={int(restless)}"
         assert asked(_address, "POST", f"/tests/show?{query}")[0] == 200
         return _address
 

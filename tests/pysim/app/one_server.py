@@ -1,8 +1,9 @@
 """`pysim app`, but the tests name the project that it shows: one server does for all of them.
 
-    POST /tests/show?folder=FOLDER&idle=0&size=BYTES
+    POST /tests/show?folder=FOLDER&idle=0&size=BYTES&restless=0
 
-`idle` builds no model and begins work that does nothing: what a job finds is then written by the test.
+`idle` builds no model and begins work that does nothing: what a job finds is then written by the test. `restless` draws
+every part of the page anew without end.
 """
 
 from __future__ import annotations
@@ -12,20 +13,23 @@ from pathlib import Path
 
 from nicegui import Client, app, background_tasks
 
-from pysim.app import server
+from pysim.app import live, server
 from pysim.app.desk import Desk
 from pysim.app.upload import Limits
 from pysim.app.worker import TASKS
 from pysim.cli import main
 
 _routes = server._routes
+_PULSE, _HASTE = live._PULSE, 0.02  # s between two looks at what has changed
 
 
 def _routes_and_show(desk: Desk) -> None:
     _routes(desk)
+    changes = app.timer(_HASTE, desk.changed, active=False)
 
     @app.post("/tests/show")
-    async def show(folder: str, idle: bool, size: int) -> None:
+    async def show(folder: str, idle: bool, size: int, restless: bool) -> None:
+        live._PULSE, changes.active = _HASTE if restless else _PULSE, restless
         desk.runner.close()
         desk.runner.poll()
         for client in list(Client.instances.values()):  # pages of the project before

@@ -37,6 +37,13 @@ def tell(project: Path, error: float, *names: str) -> None:
         file.write(json.dumps(line) + "\n")
 
 
+def draw(project: Path, error: float) -> None:
+    """What a job draws beside a better point, ahead of telling of it."""
+    one = {"names": ["x"], "units": ["m"], "time": [0, 1, 2], "measured": [[0, 1, 2]], "simulated": [[0, error, 2]]}
+    text = json.dumps({**one, "left": [[0, 1, 0]], "rms": [1], "error": error})
+    (project / "results/diagnose/curves.json").write_text(text)
+
+
 def shown_points(tab: Tab, count: int) -> None:
     """Wait until the curves have so many points; a page that hangs never has."""
     drawn = "document.querySelector('.chart[aria-label^=Residual]')?.data?.flatMap((one) => one.x).length"
@@ -58,12 +65,16 @@ def test_a_curve_and_its_numbers_move_while_the_search_runs(tab: Tab, project: P
     tab.page.wait_for_function("document.title === '… Add – Workbench'")
     tab.page.get_by_role("button", name="Stop").evaluate("(el) => (el.dataset.mark = 'the same')")
     for count, (error, names) in enumerate(((63.8, ()), (20.3, ()), (0.97, ("toy.friction",))), 1):
+        if not names:
+            draw(project, error)
         tell(project, error, *names)
         shown_points(tab, count)
         tab.see(f"Best so far: {' + '.join(names) or 'base model'} leaves {error:.3g} times the noise.")
         tab.page.get_by_role("cell", name=f"{40 + error:.4g}", exact=True).wait_for()
     assert tab.page.locator(".table tbody").first.inner_text().startswith("toy.friction")
-    assert tab.page.locator(".chart .main-svg").count() == 3  # one figure: below, above, and what hovers
+    beside = tab.page.locator(".chart[aria-label='The log with the best values, 20.3 times the noise'][data-ready=yes]")
+    assert beside.evaluate("(el) => el.data[1].y") == [0, 20300, 2000]  # mm
+    assert tab.page.locator(".chart .main-svg").count() == 6  # two figures: below, above, and what hovers
     tab.page.locator(".job .time", has_text=re.compile("0:0[1-9]|0:[1-5]|[1-9]:")).wait_for()
     tab.page.locator(".job button[data-mark='the same']").wait_for()  # a button that is made anew loses presses
     tab.shot("running")

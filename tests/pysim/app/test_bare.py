@@ -2,10 +2,13 @@
 
 import tomllib
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
+from pysim.io import read_dataset
+from pysim.types import Record
 from tests.pysim.app.browser import Show, Shown, Tab, artefacts
 from tests.toy import CATALOGUE, TEXT
 
@@ -47,13 +50,14 @@ def test_single_logs_are_described_on_the_page(shown: Shown, show: Show, logs: l
     tab.see("3 records, 1 not fitted")
     found = tomllib.loads((folder / "data/dataset.toml").read_text())
     assert found["signals"] == {
-        "F": {"role": "input", "unit": "N", "variable": "F"},
-        "x": {"role": "output", "unit": "mm", "variable": "x", "noise": 0.5},
+        "F": {"role": "input", "unit": "N", "quantity": "F"},
+        "x": {"role": "output", "unit": "mm", "quantity": "x", "noise": 0.5},
     }  # fmt: skip
     assert [(r["file"], r["use"]) for r in found["records"]] == [
-        ("run1.csv", "fit"), ("run2.csv", "fit"), ("run3.csv", "validate"),
+        ("run1.txt", "fit"), ("run2.txt", "fit"), ("run3.txt", "validate"),
     ]  # fmt: skip
-    assert found["records"][0]["columns"] == ["time", "F", "x", "-"]
+    assert found["records"][0]["columns"] == ["time", "F", "x"]
+    assert (folder / "earlier/data-1/run1.csv").read_bytes() == logs[0].read_bytes()  # as it was dropped
     tab.see("Ready to compare")
     assert tab.errors == []
 
@@ -91,6 +95,46 @@ def test_times_in_ms_are_told(shown: Shown, show: Show, tmp_path: Path) -> None:
     tab.see("1 record, 0 not fitted")
     assert tab.page.locator("td.number", has_text="7.995").count() == 1  # s, not 7995
     assert tab.errors == []
+
+
+def test_dates_volts_an_empty_cell_and_a_turned_sign_are_made_ready_by_clicks_alone(
+    shown: Shown, show: Show, tmp_path: Path
+) -> None:
+    """A logger's file: moments in place of seconds, decimal commas, a sensor in V that was wired the wrong way."""
+    wave, rows = np.sin(TIME[:400]), []
+    for k, (force, volt) in enumerate(zip(2 * wave, 5 - 40 * wave, strict=True)):
+        told = "" if k == 200 else f"{volt:.4f}".replace(".", ",")
+        rows.append(f"2026-03-01 10:00:{k / 100:06.3f};{force:.4f};{told}".replace(".", ",", 2))
+    (tmp_path / "bench.csv").write_text("\n".join(["Zeitstempel;F [N];x", *rows, ""]))
+    tab = Tab(shown, show(tmp_path / "project"), artefacts())
+    tab.drop("files", tmp_path / "bench.csv")
+    tab.see("1 log, 3 columns")
+    assert tab.page.get_by_label("role of column 1").input_value() == "time"
+    tab.page.get_by_label("unit of column 3").select_option("V")
+    tab.shot("dates")
+    tab.press("Use these logs")
+    tab.see("1 record, 0 not fitted")
+    tab.see("Next: fill the cells that are empty, or cut them out, on the page Prepare.")
+    for key, value in (("unit", "mm"), ("factor", "-25"), ("offset", "125")):
+        field = tab.page.get_by_label(f"{key} of x")
+        field.select_option(value) if key == "unit" else (field.fill(value), field.press("Tab"))
+        tab.until(
+            lambda key=key, value=value: str(described(tmp_path)["signals"]["x"].get(key)).removesuffix(".0") == value
+        )
+    tab.shot("volts")
+    tab.go("Prepare")
+    tab.see("x lacks 1 sample")
+    tab.page.get_by_role("button", name="fill_gaps").first.click()
+    tab.see("✓ ready")
+    log = read_dataset(tmp_path / "project/data").logs()[0].data
+    assert isinstance(log, Record)
+    assert np.diff(log.time) == pytest.approx(0.01)
+    assert log["x"] == pytest.approx(wave, abs=1e-4)  # m
+    assert tab.errors == []
+
+
+def described(folder: Path) -> dict[str, Any]:
+    return tomllib.loads((folder / "project/data/dataset.toml").read_text())
 
 
 def test_a_log_without_numbers_is_refused_in_a_sentence(shown: Shown, show: Show, tmp_path: Path) -> None:

@@ -1,4 +1,4 @@
-"""Columns of logs that nobody has described, and the description made of them."""
+"""Columns of logs that nobody has described, and the data set made of them."""
 
 from pathlib import Path
 from typing import Any
@@ -6,39 +6,49 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pysim.app.bare_logs import bare_description, guesses, matched
-from pysim.app.description import change_description
-from pysim.types import BadInput, Dataset
+from pysim.app.bare_logs import describe_logs, guesses, matched
+from pysim.io import read_dataset
+from pysim.io.load import READERS
+from pysim.types import BadInput, Dataset, Record
 
 TIME = np.arange(0, 8, 0.005)
 
 
-def column(name: str, role: str, unit: str) -> dict[str, Any]:
-    return {"name": name, "role": role, "unit": unit, "variable": "", "noise": None}
+def guessed(folder: Path, head: str, *rows: str) -> list[dict[str, Any]]:
+    """Of a log with that heading."""
+    path = folder / "log.csv"
+    path.write_text("\n".join([head, *rows, ""]))
+    return guesses(READERS[".csv"](path)[0])
 
 
-def taken(folder: Path, columns: list[dict[str, Any]], kind: str) -> Dataset:
+def column(
+    heading: str, name: str, role: str, unit: str, variable: str = "", noise: float | None = None
+) -> dict[str, Any]:
+    return {"heading": heading, "name": name, "role": role, "unit": unit, "variable": variable, "noise": noise}
+
+
+def taken(folder: Path, columns: list[dict[str, Any]], kind: str = "other") -> Dataset:
     """The logs of a folder, read as they were described."""
-    content = bare_description(folder, sorted(folder.rglob("*.txt")), columns, kind)
-    dataset = change_description(folder / "dataset.toml", content)
-    assert dataset is not None
-    return dataset
+    describe_logs(folder, columns, kind, folder.parent / "described")
+    return read_dataset(folder.parent / "described")
 
 
-def test_headings_and_the_model_fill_in_what_they_can() -> None:
-    assert [one["role"] for one in guesses(("t", "u", "a", "b"))] == ["time", "input", "output", "output"]
-    assert [one["role"] for one in guesses(("-", "t", "-", "u", "a"), 1)] == ["-", "time", "-", "input", "output"]
-    column = guesses(("t", "u", "x [mm]"))[2]
+def test_headings_and_the_model_fill_in_what_they_can(tmp_path: Path) -> None:
+    rows = [f"{k / 10},{k % 3},{k % 5},{k % 4}" for k in range(20)]
+    found = guessed(tmp_path, "t,u,a,b", *rows)
+    assert [one["role"] for one in found] == ["time", "input", "output", "output"]
+    behind = [f"{'on' if k % 2 else 'off'},{k / 10},{k % 3},{k % 5}" for k in range(20)]
+    assert [one["role"] for one in guessed(tmp_path, "state,t,u,a", *behind)] == ["-", "time", "input", "output"]
+    column = guessed(tmp_path, "t,u,x [mm],y [furlong]", *rows)[2]
     assert (column["name"], column["unit"]) == ("x", "mm")
-    assert guesses(["x [furlong]"])[0]["unit"] == ""
-    assert guesses(["x [mm]"], fixed=True)[0]["name"] == "x [mm]"
+    assert guessed(tmp_path, "t,u,x [mm],y [furlong]", *rows)[3]["unit"] == ""
     matched(column, [["F", "input", "N", ""], ["X", "output", "m", ""]])
     assert (column["variable"], column["unit"], column["role"]) == ("X", "mm", "output")  # the heading's unit stays
-    bare = guesses(("t", "u", "F"))[2]
+    bare = guessed(tmp_path, "t,u,F,b", *rows)[2]
     matched(bare, [["F", "input", "N", ""]])
     assert (bare["variable"], bare["unit"], bare["role"]) == ("F", "N", "input")
-    for name, unit in (("p", "bar"), ("P", "bar")):  # a small letter may be another quantity
-        other = guesses((f"{name} [{unit}]",), 1)[0]
+    for name in ("p", "P"):  # a small letter may be another quantity
+        other = guessed(tmp_path, f"t,{name} [bar],a,b", *rows)[1]
         matched(other, [["P", "output", "W", ""]])
         assert other["variable"] == ("P" if name == "P" else "")
     bare["variable"] = ""
@@ -46,22 +56,63 @@ def test_headings_and_the_model_fill_in_what_they_can() -> None:
     assert bare["variable"] == ""  # what was chosen stays
 
 
+def test_a_date_is_the_clock_and_times_are_seconds_from_its_first(tmp_path: Path) -> None:
+    folder = tmp_path / "logs"
+    folder.mkdir()
+    rows = [f"2026-03-01 10:00:{k / 4:06.3f};{k % 3},5;{k % 7}" for k in range(40)]
+    found = guessed(folder, "Zeitstempel;u;p [bar]", *rows)
+    assert [one["role"] for one in found] == ["time", "input", "output"]
+    found[1]["unit"], found[2]["noise"] = "V", 0.5
+    data = taken(folder, found)
+    log = data.logs()[0].data
+    assert isinstance(log, Record)
+    assert log.time == pytest.approx(np.arange(40) / 4, abs=1e-9)
+    assert log["u"][:3].tolist() == [0.5, 1.5, 2.5]
+    assert (log["p"][1], data.signal("p").noise) == (1e5, 0.5e5)
+
+
+def test_the_last_of_several_is_held_out_and_what_lacks_is_said(tmp_path: Path) -> None:
+    folder = tmp_path / "logs"
+    folder.mkdir()
+    for name in "ab":
+        (folder / f"{name}.txt").write_text("0 1 2 7\n1 2 3 7\n2 3 4 7\n")
+    own = [column("column 1", "t", "time", "s"), column("column 2", 'odd "name"', "input", "%", "cmd")]
+    own += [column("column 3", "p", "output", "bar", noise=0.5), column("column 4", "rest", "-", "")]
+    for wrong, words in (
+        (own[:1], "choose one as time, and at least one input and one output"),
+        ([*own[:2], {**own[2], "unit": ""}], "p: choose a unit, or a dash to leave the column out"),
+        ([*own[:3], {**own[3], "role": "output", "name": "p"}], "two have the same name"),
+        ([*own[:2], {**own[2], "heading": "q"}], "^a.txt has no column 'q'"),  # without the folder
+    ):
+        with pytest.raises(BadInput, match=words):
+            taken(folder, wrong)
+    data = taken(folder, own)
+    assert [record.use for record in data.records] == ["fit", "validate"]
+    assert data.signal('odd "name"').variable == "cmd"
+    assert data.logs()[0].data["p"].tolist() == [2e5, 3e5, 4e5]  # type: ignore[index]
+
+
 @pytest.mark.parametrize(("unit", "si"), [("deg", np.pi / 180), ("bar", 1e5), ("%", 1.0)])
 @pytest.mark.parametrize("place", ["O+25_A10", "plain"])  # told by the name, or read off the command
 def test_sines_are_described_in_the_unit_of_their_files(tmp_path: Path, place: str, unit: str, si: float) -> None:
-    (tmp_path / place).mkdir()
+    folder = tmp_path / "logs"
+    (folder / place).mkdir(parents=True)
     for frequency in (1, 2):
         wave = 25 + 10 * np.sin(2 * np.pi * frequency * TIME)
-        np.savetxt(tmp_path / place / f"{frequency}Hz.txt", np.column_stack([TIME, wave, wave]), fmt="%.5f")
-    columns = [column("time", "time", ""), column("command", "input", unit), column("angle", "output", unit)]
-    records = taken(tmp_path, columns, "frequency-response").records
+        np.savetxt(folder / place / f"{frequency}Hz.txt", np.column_stack([TIME, wave, wave]), fmt="%.5f")
+    columns = [column("column 1", "time", "time", ""), column("column 2", "command", "input", unit)]
+    columns.append(column("column 3", "angle", "output", unit))
+    records = taken(folder, columns, "frequency-response").records
     told = [(r.offset, r.amplitude, r.frequency) for r in records]
     np.testing.assert_allclose(told, [(25 * si, 10 * si, 1), (25 * si, 10 * si, 2)], rtol=1e-12)
 
 
 def test_times_are_in_the_unit_that_was_chosen(tmp_path: Path) -> None:
-    np.savetxt(tmp_path / "a.txt", np.column_stack([1000 * TIME, TIME, TIME]), fmt="%.5f")
-    columns = [column("time", "time", "ms"), column("u", "input", "V"), column("y", "output", "bar")]
-    assert taken(tmp_path, columns, "other").records[0].data.time[-1] == pytest.approx(TIME[-1])
-    with pytest.raises(BadInput, match="time is not stated in bar; choose s, ms"):
-        taken(tmp_path, [column("time", "time", "bar"), *columns[1:]], "other")
+    folder = tmp_path / "logs"
+    folder.mkdir()
+    np.savetxt(folder / "a.txt", np.column_stack([1000 * TIME, TIME, TIME]), fmt="%.5f")
+    own = [column("column 2", "u", "input", "V"), column("column 3", "y", "output", "bar")]
+    with pytest.raises(BadInput, match="is in 'bar', which is no unit of time"):
+        taken(folder, [column("column 1", "time", "time", "bar"), *own])
+    log = taken(folder, [column("column 1", "time", "time", "ms"), *own]).records[0].data
+    assert log.time[-1] == pytest.approx(TIME[-1])  # type: ignore[union-attr]

@@ -28,14 +28,39 @@ def test_branches_stand_side_by_side_and_one_is_deleted(shown: Shown, show: Show
         tab.press(f"Undo {name}")
         tab.page.get_by_role("button", name=f"Undo {name}").wait_for(state="detached")
     tab.see("Branches")
-    names = tab.page.locator(".chart[aria-label^='Error over noise of 2']").evaluate("(el) => el.layout.xaxis.ticktext")
-    assert names == ["refitted", "+ toy.friction", "+ toy.hardening"]
+    ticks = "document.querySelector(\".chart[aria-label^='Error over noise of 2']\")?.layout?.xaxis.ticktext.join()"
+    tab.page.wait_for_function(f"{ticks} === 'refitted,+ toy.friction,+ toy.hardening'")
+    tab.page.get_by_label("name of branch A").fill("dry spindle")
+    tab.page.get_by_label("name of branch A").press("Tab")
+    tab.page.wait_for_function(f"{ticks} === 'refitted,+ dry spindle,+ toy.hardening'")
+    assert project.settings().named == {"toy.friction": "dry spindle"}
     tab.shot("branches")
+    _paper_has_all_of_it(tab)
     tab.press("show toy.friction")
     tab.see("Undo toy.friction")
     tab.page.keyboard.press("Control+z")
     tab.page.get_by_role("button", name="Undo toy.friction").wait_for(state="detached")
     tab.press("delete toy.hardening")
     tab.page.get_by_text("Branches").wait_for(state="detached")
-    assert [path.name.split("-")[1] for path in (project.folder / "results").glob("add-*")] == ["toy.friction"]
+    tab.page.keyboard.press("Control+z")
+    tab.see("Branches")
+    tab.page.keyboard.press("Control+y")
+    tab.page.get_by_text("Branches").wait_for(state="detached")
     assert tab.errors == []
+    for folder in (tmp_path / "other", project.folder):
+        show(folder)  # a server that comes anew removes what was deleted
+    assert [path.name.split("-")[1] for path in (project.folder / "results").glob("add-*")] == ["toy.friction"]
+    assert project.settings().deleted == ()
+
+
+def _paper_has_all_of_it(tab: Tab) -> None:
+    """Nothing is cut where a page scrolls, and rail and buttons stay on the screen."""
+    tab.page.emulate_media(media="print")
+    parts = "[...document.querySelectorAll('.card, .chart, .table-scroll')]"
+    assert tab.page.evaluate(f"{parts}.filter((e) => e.scrollHeight > e.clientHeight + 2).length") == 0
+    last = f"Math.max(...{parts}.map((e) => e.getBoundingClientRect().bottom)) + scrollY"
+    assert tab.page.evaluate(f"document.documentElement.scrollHeight - ({last})") >= -1
+    assert tab.page.evaluate("getComputedStyle(document.querySelector('#page')).overflowY") == "visible"
+    assert not tab.page.locator(".rail").is_visible()
+    tab.print("branches")
+    tab.page.emulate_media(media="screen")

@@ -5,7 +5,7 @@ from typing import Any
 
 import pytest
 
-from pysim.app.description import change_description, described, hold_out, leave_out, read_description, refuse_outside
+from pysim.app.description import change_description, hold_out, leave_out, read_description, refuse_outside
 from pysim.io import read_dataset, write_dataset
 from pysim.types import BadInput
 from tests.toy import measured
@@ -54,36 +54,6 @@ def test_what_is_refused_changes_nothing(path: Path) -> None:
     with pytest.raises(BadInput, match="parsec"):
         change_description(path, content)
     assert path.read_bytes() == before
-
-
-def test_bare_logs_get_a_description_that_reads(tmp_path: Path) -> None:
-    (tmp_path / "a.txt").write_text("0 1 2 7\n1 2 3 7\n")
-    columns = [
-        {"name": "t", "role": "time", "unit": "s", "variable": "", "noise": None},
-        {"name": 'odd "name"', "role": "input", "unit": "%", "variable": "cmd", "noise": None},
-        {"name": "p", "role": "output", "unit": "bar", "variable": "p", "noise": 0.5},
-        {"name": "rest", "role": "-", "unit": "1", "variable": "", "noise": None},
-    ]
-    content = described("logs", columns, [{"file": "a.txt", "kind": "other", "use": "fit"}])
-    found = change_description(tmp_path / "dataset.toml", content)
-    assert found is not None
-    assert found.signal('odd "name"').variable == "cmd"
-    assert found.logs()[0].data["p"].tolist() == [2e5, 3e5]  # type: ignore[index]
-    assert found.signal("p").noise == 0.5e5
-    with pytest.raises(BadInput, match="at least one input"):
-        described("logs", columns[:1], [])
-
-
-def test_the_clock_of_a_log_that_names_its_columns_keeps_its_name(tmp_path: Path) -> None:
-    parquet = pytest.importorskip("pyarrow.parquet")
-    table = pytest.importorskip("pyarrow").table({"cmd": [1.0, 2.0], "p": [2.0, 3.0], "Zeit": [0.0, 1.0]})
-    parquet.write_table(table, tmp_path / "a.parquet")
-    roles = {"cmd": "input", "p": "output", "Zeit": "time"}
-    columns = [{"name": n, "role": r, "unit": "%", "variable": n, "noise": None} for n, r in roles.items()]
-    content = described("logs", columns, [{"file": "a.parquet", "kind": "other", "use": "fit"}])
-    found = change_description(tmp_path / "dataset.toml", content)
-    assert found is not None
-    assert found.logs()[0].data.time.tolist() == [0.0, 1.0]  # type: ignore[union-attr]
 
 
 FILES = ["./logs/a.csv", "logs//a.csv", "logs\\b.csv"]  # as a user may write them

@@ -11,7 +11,6 @@ from pathlib import Path
 import pytest
 
 from pysim.app import jobs
-from pysim.app.began import began
 from pysim.app.jobs import DONE, FAILED, RUNNING, STOPPED, Job, Runner, Work, adding, read_job, settle, works
 from pysim.app.processes import Started
 from pysim.app.project import Project
@@ -162,7 +161,7 @@ def left(project: Project, **process: object) -> Path:
     return path
 
 
-@pytest.mark.parametrize("process", [{}, {"pid": os.getpid(), "began": "long ago"}])
+@pytest.mark.parametrize("process", [{}, {"pid": os.getpid(), "began": 1.0}])
 def test_a_process_that_got_the_number_of_a_job_later_is_left_alone(
     project: Project, process: dict[str, object]
 ) -> None:
@@ -174,7 +173,7 @@ def test_a_process_that_got_the_number_of_a_job_later_is_left_alone(
 
 
 def test_what_still_lives_never_counts_as_stopped(project: Project, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = left(project, pid=os.getpid(), began=began(os.getpid()))
+    path = left(project, pid=os.getpid(), began=Started.of(os.getpid()).began)
     monkeypatch.setattr(Started, "end", lambda self, patience: False)
     before = path.read_bytes()
     with pytest.raises(BadInput, match=rf"try is being written by process {os.getpid()}, .*; end it, then start again"):

@@ -39,11 +39,23 @@ def test_what_somebody_else_has_started_ends_with_all_that_it_has_started(code: 
 def test_another_process_with_its_number_is_left_alone(tmp_path: Path) -> None:
     with subprocess.Popen([sys.executable, "-c", PARENT], cwd=tmp_path, start_new_session=True) as process:
         child(tmp_path)
-        for earlier in (Started(process.pid, "of another one"), Started(process.pid, "")):
+        for earlier in (Started(process.pid, 1e9), Started(process.pid, 0.0)):
             assert not earlier.lives
             assert earlier.end(0.2)
         assert process.poll() is None
         end_all(process.pid, hard=True)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="nobody is asked there")
+def test_one_that_has_ended_and_waits_to_be_asked_does_not_run() -> None:
+    with subprocess.Popen([sys.executable, "-c", "input()"], stdin=subprocess.PIPE) as process:
+        started = Started.of(process.pid)
+        assert started.lives
+        process.kill()
+        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+        assert not started.lives
+        assert Started.of(process.pid).began == 0
+    assert not started.lives
 
 
 def test_what_cannot_be_ended_is_said(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -16,6 +16,7 @@ from urllib.parse import urlsplit
 import pytest
 
 from pysim import present
+from pysim.app import server as routes_of
 from pysim.app.answers import Answer
 from pysim.app.jobs import DONE, Job, Work
 from pysim.app.lock import held
@@ -34,7 +35,7 @@ def test_a_record_whose_result_was_removed_meanwhile_is_none(tmp_path: Path) -> 
     job = Job(Work("diagnose", "Find", ("diagnose",)), DONE, 1.0, 2.0, "")
     answer = Answer(job, tmp_path, present.data(found_offset()), read_stages(tmp_path / "a.npz"))
     check, answers = SimpleNamespace(dataset=dataset()), SimpleNamespace(all=(answer,))
-    desk: Any = SimpleNamespace(loaded=SimpleNamespace(check=check), answers=answers)
+    desk: Any = SimpleNamespace(check=check, answers=answers)
     overlay = overlay_of(desk, "diagnose", _WAVE)
     assert overlay is not None
     assert overlay.names == ("x",)
@@ -62,7 +63,7 @@ def test_of_two_records_of_one_file_the_one_that_was_asked_for_is_given(tmp_path
     job = Job(Work("diagnose", "Find", ("diagnose",)), DONE, 1.0, 2.0, "")
     answer = Answer(job, tmp_path, present.data(found_offset()), read_stages(tmp_path / "a.npz"))
     check = SimpleNamespace(dataset=replace(dataset(), records=tuple(logs)))
-    desk: Any = SimpleNamespace(loaded=SimpleNamespace(check=check), answers=SimpleNamespace(all=(answer,)))
+    desk: Any = SimpleNamespace(check=check, answers=SimpleNamespace(all=(answer,)))
     for k, name in names.items():
         overlay = overlay_of(desk, "diagnose", k)
         assert overlay is not None
@@ -204,6 +205,48 @@ def status(address: str, **headers: str) -> int:
     connection = http.client.HTTPConnection(parts.hostname or "", parts.port, timeout=60)
     connection.request("GET", f"{parts.path}?{parts.query}", headers=headers)
     return connection.getresponse().status
+
+
+ROUTES = re.findall(r'@app\.(get|post|put)\("([^"]+)"', Path(routes_of.__file__).read_text(encoding="utf-8"))
+
+
+@pytest.mark.parametrize(("method", "route"), [*ROUTES, ("get", "/"), ("get", "/static/app.css"), ("get", "/compare")])
+def test_no_route_lets_in_who_has_no_token_comes_from_elsewhere_or_asks_by_another_name(
+    method: str, route: str, show: Show, tmp_path: Path
+) -> None:
+    """Each route that the server has, also those that are added later."""
+    assert {path for _, path in ROUTES} >= {"/notebook", "/series", "/upload", "/commands/{name}"}
+    address = show(tmp_path / "p", idle=True)
+    parts, path = urlsplit(address), re.sub(r"{[^}]*}", "x", route)
+    cookie = {"Cookie": f"pysim_app_{parts.port}={address.partition('token=')[2]}"}
+    wrong: list[dict[str, str]] = [
+        {},
+        {"Cookie": f"pysim_app_{parts.port}=guessed"},
+        {"Origin": "http://evil.example", **cookie},
+    ]
+    for headers in [*wrong, {"Host": "evil.example", **cookie}, {"Host": f"evil.example:{parts.port}", **cookie}]:
+        connection = http.client.HTTPConnection(parts.hostname or "", parts.port, timeout=60)
+        connection.request(method.upper(), path, headers=headers)
+        answer = connection.getresponse()
+        assert (answer.status, b"token" in answer.read()) == (403, True), headers
+    assert not (tmp_path / "p/uploads").exists()
+    assert asked(address, method.upper(), path)[0] != 403
+
+
+def test_no_address_leads_out_of_the_project(show: Show, tmp_path: Path) -> None:
+    address = show(tmp_path / "p", idle=True)
+    secret = tmp_path / "secret.txt"
+    secret.write_text("only for me")
+    _, name = asked(address, "POST", "/upload")
+    up = ("..", "%2e%2e", "%2e.", "..%2f..%2f..", "..%5c..%5c..", "%252e%252e")
+    for start in ("/result/x", "/result", "/commands", "/static", "/notebook", "/series", f"/upload/{name}"):
+        for one in up:
+            for place in (f"{start}/{one}/{one}/{one}/secret.txt", f"{start}/{one}", f"{start}/{secret}"):
+                assert "only for me" not in asked(address, "GET", place)[1], place
+    for one in ("../../a.txt", "/tmp/a.txt", "..%5c..%5ca.txt", "a/../../../a.txt", "C:%5ca.txt", "%00.txt"):
+        _, name = asked(address, "POST", "/upload")
+        assert asked(address, "PUT", f"/upload/{name}?name={one}", b"0 1")[0] == 422, one
+    assert {path.name for path in tmp_path.iterdir()} == {"p", "secret.txt"}
 
 
 def test_a_file_of_a_result_is_given_from_any_depth_of_its_folder_and_from_nowhere_else(

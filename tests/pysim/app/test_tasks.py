@@ -6,7 +6,7 @@ from pathlib import Path
 import pytest
 
 from pysim.app import tasks
-from pysim.app.jobs import ANSWER, Job, Work, _write_job, works
+from pysim.app.jobs import ANSWER, CURVES, Job, Work, _write_job, works
 from pysim.app.project import Project
 from pysim.app.tasks import Tasks
 from pysim.cli import main
@@ -45,6 +45,16 @@ def test_the_answer_is_that_of_the_command_line_which_takes_the_folder_over(proj
     before = answer(folder)
     assert main(list(works(project)["compare"].words)) in (0, 1)
     assert answer(folder) == before
+
+
+def test_a_log_is_drawn_beside_the_best_point_while_the_search_runs(project: Project) -> None:
+    own = Tasks(project.folder)
+    folder = done(project, "compare", own)
+    drawn = json.loads((folder / CURVES).read_text())
+    trials = [json.loads(line)["trial"] for line in (folder / "events.jsonl").read_text().splitlines()]
+    shown = next(one for one in trials if one and one["error"] == drawn["error"])
+    assert drawn["simulated"] == own.curves(0, shown["values"])["simulated"].tolist()
+    assert shown["error"] <= trials[0]["error"] if trials[0] else True
 
 
 @pytest.mark.slow
