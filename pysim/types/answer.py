@@ -319,6 +319,12 @@ class LearnedLaw:
         half = HALF_95 * np.sqrt(np.maximum(np.diag(self.covariance), 0.0))
         return self.coefficients - half, self.coefficients + half
 
+    @property
+    def is_flat(self) -> bool:
+        """Whether one value lies within the interval of every coefficient."""
+        low, high = self.band
+        return bool(np.max(low) <= np.min(high))
+
 
 @dataclass(frozen=True)
 class Detectable:

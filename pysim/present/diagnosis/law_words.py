@@ -35,7 +35,9 @@ def law_sentence(law: LearnedLaw) -> str:
     """What is missing, how much of the misfit it explains, what it looks like, and what it does to the error."""
     kind = law_kind(law)
     on = "changes with time" if law.argument == "time" else f"depends on {law.argument}"
-    if law.factor:
+    if law.factor and law.is_flat:
+        texts = [f"The model lacks a {kind} at {law.slot} of constant size."]
+    elif law.factor:
         texts = [f"The {kind} at {law.slot} is not constant: it {on}."]
     else:
         texts = [f"The model lacks {'an' if kind == 'angle' else 'a'} {kind} at {law.slot} that {on}."]

@@ -110,6 +110,13 @@ def test_an_unknown_that_was_learned_is_first_said_in_words() -> None:
     assert "Nothing but noise is left" in verdict_sentence(replace(found, complete=True))
 
 
+def test_a_law_of_constant_size_is_not_said_to_depend_on_anything() -> None:
+    flat = replace(LAW, factor="sign(v)", coefficients=0 * LAW.coefficients - 60.0)
+    assert flat.is_flat
+    assert not replace(flat, coefficients=LAW.coefficients, covariance=1e-9 * LAW.covariance).is_flat
+    assert "depends" not in law_sentence(flat)
+
+
 def test_learned_laws_are_listed_by_place_and_share_with_the_curve_of_the_first() -> None:
     other = replace(LAW, slot="supply", share=0.12)
     found = nothing(complete=False, learned=(LAW, other))
