@@ -118,6 +118,14 @@ def begin(candidate: Candidate, values: Values, simulation: Simulation, present:
     return begun(candidate, evaluate(x, carried), simulation, evaluate)
 
 
+def seen_by(fit: FinalFit, simulation: Simulation) -> FinalFit:
+    """The same point by other runs, without slopes."""
+    candidate, point = fit.candidate, fit.point
+    residuals = candidate.residuals(simulation)
+    other = residuals.evaluate(candidate.model, candidate.space, point.x, point.carried, jacobian=False, states=False)
+    return FinalFit(candidate, State(other), simulation, fit.evaluate)
+
+
 def begin_anywhere(candidate: Candidate, simulation: Simulation) -> FinalFit:
     """The candidate at its own values, or where a search on longer and longer stretches of its logs has come."""
     residuals = candidate.residuals(simulation)
@@ -241,7 +249,9 @@ class Runner:
     most: float = math.inf
 
 
-def race(runners: Sequence[Runner], settings: Settings, fine: Simulation) -> list[FinalFit]:
+def race(
+    runners: Sequence[Runner], settings: Settings, finish: Callable[[FinalFit], FinalFit] = converged
+) -> list[FinalFit]:
     """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
 
     One that can gain too little beside what others have gained does not start. Of several starts of one candidate, one
@@ -249,7 +259,7 @@ def race(runners: Sequence[Runner], settings: Settings, fine: Simulation) -> lis
 
     Args:
         runners: the most promising first.
-        fine: simulation by which the best end.
+        finish: takes one of the best to its end.
     """
     running, gained = list[tuple[FinalFit, float]](), 0.0
     for runner in runners:
@@ -270,7 +280,7 @@ def race(runners: Sequence[Runner], settings: Settings, fine: Simulation) -> lis
         running = going
     ranked = sorted(_best_starts([*running, *resting]), key=_promise)
     ended = [
-        (converged(one[0], fine), one[1]) if k < settings.finalists and -_promise(one) >= least else one
+        (finish(one[0]), one[1]) if k < settings.finalists and -_promise(one) >= least else one
         for k, one in enumerate(ranked)
     ]
     return [fit for fit, before in sorted(ended, key=lambda one: one[0].point.cost - one[1])]

@@ -17,7 +17,7 @@ from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, begin, begin_anywhere, converged, race
+from pysim.diagnosis.refit import FinalFit, begin, begin_anywhere, converged, race, seen_by
 from pysim.diagnosis.screen import Screened, best_of_each, screen, screened
 from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts, with_sensor_errors
@@ -149,27 +149,31 @@ class Search:
                 raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {failure}")
             return converged(first, self.fine)
 
-        return self._fine_enough(self._keep(self._once("base", found, candidate)))
+        base = self._fine_enough(self._once("base", found, candidate))
+        self.fine = base.simulation
+        self.rough = self.floors.with_(base).roughest(base, self.settings.fine).simulation
+        return self._keep(base)
 
-    def _fine_enough(self, base: FinalFit) -> FinalFit:
-        """The base, and from now on all runs, integrated so finely that their error is small beside the floor."""
-        floors = self.floors.with_(base)
-        for _ in range(self.settings.refinements):
-            finer = self.fine.finer()
-            other = begin(base.candidate, base.values, finer, base)
-            if not other.good:
+    def _fine_enough(self, fit: FinalFit) -> FinalFit:
+        """A fit integrated so finely that the error is small beside the floor: a sharp law asks for more."""
+        for _ in range(self.settings.refinements if fit.good else 0):
+            other = seen_by(fit, fit.simulation.finer())
+            if not other.good or self.floors.with_(fit).between(fit, other) < self.settings.fine:
                 break
-            if floors.between(base, other) < self.settings.fine:
-                break
-            self.fine = finer
-            base = self._fits[_key(base.candidate)] = converged(other)  # costs of rougher runs are no match for it
-            floors = floors.with_(base)
-        self.rough = floors.roughest(base, self.settings.fine).simulation
-        return base
+            fit = converged(begin(fit.candidate, fit.values, other.simulation, fit))
+        return fit
 
     def _once(self, part: str, find: Callable[[], FinalFit], candidate: Candidate) -> FinalFit:
         """One refit of the checkpoint."""
-        return self._checkpoint.once(part, lambda: [find()], [candidate], (self.rough, self.fine))[0]
+        return self._checkpoint.once(part, lambda: [find()], [candidate], self._simulations)[0]
+
+    @property
+    def _simulations(self) -> tuple[Simulation, ...]:
+        """That a refit may have ended by."""
+        found = [self.rough, self.fine]
+        for _ in range(self.settings.refinements):
+            found.append(found[-1].finer())
+        return tuple(found)
 
     @property
     def tables(self) -> tuple[Table, ...]:
@@ -224,7 +228,7 @@ class Search:
             raise BadInput(f"{effects[-1].name}: the model cannot be simulated with it")
         starts = [begin(candidate, one.values, self.rough, self.beside(present, candidate.transient)) for one in found]
         best = min((fit for fit in starts if fit.good), key=lambda fit: fit.point.cost)
-        return self._keep(converged(best, self.fine))
+        return self._keep(self._fine_enough(converged(best, self.fine)))
 
     def run(self, base: FinalFit, most: int) -> Found:
         """Forward along the best first steps, then backward from each end; the better end is kept."""
@@ -283,6 +287,7 @@ class Search:
                 break
             if in_vain == self.settings.on_trial and gained + best.test.gain < self.settings.small * worth:
                 break
+            self.fine = min(self.fine, best.fit.simulation, key=lambda one: one.solver.rtol)
             present = self._keep(converged(best.fit, self.fine))
             self.floors = self.floors.with_(present)
             steps.append(Step(present, best.added, best.test, not sure, tuple(compared)))
@@ -309,12 +314,15 @@ class Search:
         sensors = with_sensor_errors(starts.here(present.candidate.transient), self.models)
         self.tried = max(self.tried, len(tried) + len(sensors))
 
+        def finish(fit: FinalFit) -> FinalFit:
+            return self._fine_enough(converged(fit, self.fine))
+
         def raced() -> list[FinalFit]:
-            return race(starts.runners(sizes, sensors, self.tried), self.settings, self.fine)
+            return race(starts.runners(sizes, sensors, self.tried), self.settings, finish)
 
         part = f"beside {' + '.join(present.candidate.labels) or 'the base model'}"
         candidates = [one.candidate for one in tried] + [fit.candidate for fit in sensors]
-        fits = self._checkpoint.once(part, raced, candidates, (self.rough, self.fine))
+        fits = self._checkpoint.once(part, raced, candidates, self._simulations)
         have, compared = set(present.candidate.labels), list[Compared]()
         for fit in fits:
             added = next(label for label in fit.candidate.labels if label not in have)

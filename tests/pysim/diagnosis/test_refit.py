@@ -37,7 +37,8 @@ def start(name: str, size: float = 0.1, values: Values | None = None) -> FinalFi
 
 
 def raced(*fits: FinalFit, **settings: object) -> list[FinalFit]:
-    return race([Runner(lambda fit=fit: fit, base().point.cost) for fit in fits], replace(Settings(), **settings), FINE)
+    runners = [Runner(lambda fit=fit: fit, base().point.cost) for fit in fits]
+    return race(runners, replace(Settings(), **settings), lambda fit: converged(fit, FINE))
 
 
 def test_the_right_effect_wins_and_ends_where_a_fit_of_it_alone_ends() -> None:

@@ -11,7 +11,7 @@ import pytest
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, begin
+from pysim.diagnosis.refit import FinalFit, begin, seen_by
 from pysim.diagnosis.search import Search
 from pysim.diagnosis.session import session
 from pysim.diagnosis.settings import Settings
@@ -19,7 +19,7 @@ from pysim.effects import read_catalogue
 from pysim.types.answer import Verdict
 from pysim.workflow.variants import Variants
 from tests.known_answers.plants import PLANTS
-from tests.pysim.diagnosis.plants import FINE, measured, refitted
+from tests.pysim.diagnosis.plants import FINE, given, measured, refitted
 
 FRAIL = """
 package Frail
@@ -87,3 +87,17 @@ def test_a_model_that_does_not_run_beside_an_effect_is_refitted_from_the_base_mo
     fit = search._refitted(candidate, far, frail)
     assert fit.good
     assert fit.point.cost <= base.point.cost + 1.0
+
+
+def test_rivals_end_by_runs_as_fine_as_each_needs() -> None:
+    """A sharp sign is integrated wrongly by tens of nats where runs are as rough as the base model allows."""
+    data = measured("mass", {"mass.friction": {"F_c": 0.4}}, {"m": 1.05, "d": 1.8, "k": 42.0})
+    opened = given("mass", data, ["mass.friction", "mass.stick_slip", "mass.bias"], initial="near rest")
+    search = Search(Models(opened), FINE, opened.settings, Progress(lambda told: None), Checkpoint(None, ""))
+    base = search.fit_base()
+    search.floors = search.floors.with_(base)
+    ended = [one.fit for one in search.expand(base).rivals if one.fit.ended]
+    assert {fit.names for fit in ended} >= {("mass.friction",), ("mass.stick_slip",)}
+    for fit in ended:
+        assert search.floors.between(fit, seen_by(fit, fit.simulation.finer(1e-3))) < 1.5 * opened.settings.fine
+    assert min(fit.simulation.solver.rtol for fit in ended) < base.simulation.solver.rtol
