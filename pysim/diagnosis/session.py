@@ -14,6 +14,7 @@ from pysim.diagnosis.settings import Settings
 from pysim.effects import Slot
 from pysim.identify import THESIS_REFERENCE_HZ
 from pysim.identify.greybox import Measurements, Parameter, Problem, Rest, Threads, Treatment, problem
+from pysim.identify.greybox.context import on_one_clock
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import beside
 from pysim.types import BadInput, Dataset, Effect, MeasuredRecord, Model, Note, NoteCode
@@ -132,7 +133,7 @@ def session(
             raise BadInput(f"{name} has bounds but is not free; free are {', '.join(names) or 'none'}")
     ends = {name: bounds.get(name, (None, None)) for name in names}
     parameters = tuple(Parameter(n, None, low, high, prior=priors.get(n)) for n, (low, high) in ends.items())
-    read, unseen = _withheld(dataset)
+    read, unseen = _withheld(on_one_clock(dataset))
     given = Session(
         model,
         Measurements(read, overrides=overrides or {}),

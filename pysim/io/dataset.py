@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path, PurePosixPath
 
 from pysim.io.limits import LIMITS
@@ -108,9 +108,6 @@ def _read(folder: Path, *, keep_going: bool, missing: bool = False) -> Described
             refused.append((section.source(), str(error)))
     signals = tuple(signal_in_si(signal) for signal in written.values())
     name, about, system = head.text("name"), head.text("description", "-"), head.text("system", "-")
-    first = min((record.begin for record in records if record.begin is not None), default=0.0)
-    if abs(first) >= LIMITS.clock:  # a date
-        records = [r if r.begin is None else replace(r, begin=r.begin - first) for r in records]
     raw = Dataset(name, about, system, signals, tuple(records))
     return Described(raw, steps, {signal.name: signal.unit for signal in written.values()}, tuple(refused))
 

@@ -41,12 +41,6 @@ class ReadLimits:
         meaning="of a Parquet file that are unpacked at a time",
         source="what pyarrow takes where nothing is said; 0.5 MB a column",
     )
-    clock: float = setting(
-        1e6,
-        unit="s",
-        meaning="on which the first log begins, from where on the clock is a date and is set to begin with that log",
-        source="up to there a float64 tells 1e-10 s, which steps of a run need",
-    )
 
 
 LIMITS = ReadLimits()

@@ -365,8 +365,10 @@ class Model(Shown):
             begun = None if inputs else self._begun(what, self.initial if initial is None else initial)
             if begun is not None:
                 assert isinstance(what.data, Record)
-                experiment = replace(begun, times=_times(what.data, dt), record=names)
-                return Run(simulate(model, experiment, solver=Rodas(), check=check), self.name)
+                later = float(begun.times[0] - what.data.time[0])  # on the clock of all logs
+                times = np.maximum(_times(what.data, dt) + later, begun.start)
+                found = simulate(model, replace(begun, times=times, record=names), solver=Rodas(), check=check)
+                return Run(replace(found, time=found.time - later), self.name)
             times, start, drives = self._log(what, dt)
         else:
             stop = float(what if what is not None else model.stop_time or 1.0)

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.settings import RestSettings
+from pysim.identify.greybox.settings import BeginningSettings, RestSettings
 from pysim.identify.greybox.treatment import Treatment
 from pysim.simulate import Esdirk, Sensitivities, sensitivities_many
 from pysim.types import BadInput, Dataset, Experiment, MeasuredRecord, Model, Outcome, Record, Signal
@@ -17,6 +17,15 @@ from pysim.types import BadInput, Dataset, Experiment, MeasuredRecord, Model, Ou
 Array = NDArray[np.float64]
 
 _SETTINGS = RestSettings()
+
+
+def on_one_clock(dataset: Dataset) -> Dataset:
+    """A data set whose clock begins with its first log where it was a date: that rounds the steps of a run away."""
+    first = min((record.begin for record in dataset.records if record.begin is not None), default=0.0)
+    if abs(first) < BeginningSettings().date:
+        return dataset
+    records = (one if one.begin is None else replace(one, begin=one.begin - first) for one in dataset.records)
+    return replace(dataset, records=tuple(records))
 
 
 @dataclass(frozen=True)

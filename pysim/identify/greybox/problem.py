@@ -9,7 +9,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.context import Context
+from pysim.identify.greybox.context import Context, on_one_clock
 from pysim.identify.greybox.noise import noise_floor, signal_noise
 from pysim.identify.greybox.objective import NOISE, Objective
 from pysim.identify.greybox.observation import Observation, Run
@@ -137,6 +137,7 @@ def problem(
         for name in one.overrides:
             if name in (*space.variables, *space.fixed, *(tie.name for tie in space.ties)):
                 raise BadInput(f"fit: data set {one.dataset.name!r} overrides {name}, which is free, tied or fixed")
+        one = replace(one, dataset=on_one_clock(one.dataset))
         context, said = _context(model, one, treatment, _started(model, space))
         with one_blas_thread():
             found, more, stated = _observations(context)

@@ -204,6 +204,12 @@ class TrustSettings:
 class BeginningSettings:
     """How the state is found at which a log begins."""
 
+    date: float = setting(
+        1e6,
+        unit="s",
+        meaning="begin of a log from where on the clock is a date, and is set to begin with the first log",
+        source="up to there a float64 tells 1e-10 s, which steps of a run need",
+    )
     heads: int = setting(
         6,
         unit="1",

@@ -114,12 +114,6 @@ def test_how_and_when_a_log_begins(tmp_path: Path, begin: str, seconds: float) -
     assert (wave.initial, wave.begin) == ("estimate", seconds)
 
 
-def test_a_clock_that_is_a_date_begins_with_the_first_log(tmp_path: Path) -> None:
-    toml = TOML.replace('kind = "stochastic"', 'kind = "stochastic"\nbegin = 2026-03-01T14:05:30')
-    toml = toml.replace('kind = "frequency-response"', 'kind = "frequency-response"\nbegin = 2026-03-01T14:05:00')
-    assert [record.begin for record in read_dataset(files(tmp_path, toml)).records] == [0.0, 30.0]
-
-
 def test_the_data_set_tells_inputs_from_outputs(tmp_path: Path) -> None:
     data = read_dataset(files(tmp_path))
     assert data.columns(data.records[1], "input") == ("p",)

@@ -30,9 +30,18 @@ def test_the_time_of_a_run_is_the_clock_of_all_records(lag: Model) -> None:
         found = problem(lag, [m.dataset([record])], (), fixed={"T": 0.2})
         (run,) = found.residuals().runs
         first = time[0] if begin is None else begin
-        assert run.begins == first
+        assert run.begins == pytest.approx(first, abs=1e-9)
         assert run.experiment.times == pytest.approx(time - time[0] + first, abs=1e-9)
         point = found.residuals().evaluate(lag, found.space, np.zeros(0), jacobian=False)
         residuals[begin] = point.residual * point.levels[0]
     assert residuals[1000.0] == pytest.approx(residuals[None], abs=1e-6)
     assert np.max(np.abs(residuals[None])) > 0.5
+
+
+def test_a_clock_that_is_a_date_begins_with_the_first_log(lag: Model) -> None:
+    time, noon = np.arange(0, 3, 0.02), 1.7e9
+    begins = (noon + 40.0, noon, None)
+    records = [replace(m.log(time, np.sin(time), np.sin(time)), begin=begin) for begin in begins]
+    records = [replace(record, source=f"{k}.txt") for k, record in enumerate(records)]
+    found = problem(lag, [m.dataset(records)], (), fixed={"T": 0.2})
+    assert [run.begins for run in found.residuals().runs] == [40.0, 0.0, 0.0]
