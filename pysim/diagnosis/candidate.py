@@ -184,7 +184,9 @@ class Models:
         problem = replace(problem, space=space)
         return Candidate(effects, tuple(nuisances), problem, kept, transient, has_events, watch=self.watch)
 
-    def alone(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = ()) -> Candidate:
+    def alone(
+        self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = (), *, transient: bool = False
+    ) -> Candidate:
         """The model with these effects themselves and no others.
 
         Raises:
@@ -192,7 +194,7 @@ class Models:
         """
         effects = tuple(effects)
         has_events = any(map(switches, effects))
-        transient = has_events or self.all_transient
+        transient |= has_events or self.all_transient
         _, places = self._variant(effects)
         return Candidate(effects, tuple(nuisances), self._problem(effects, transient), places, transient, has_events)
 

@@ -245,10 +245,11 @@ def _learned(session: Session, search: Search, found: Found) -> Learning:
     )
     learning = learner(present=found.final).learn()
     if session.has_clock and (learning.law is None or not search.is_done(learning.law.fit)):
-        drift = learner(present=search.beside(found.final, transient=True), over_time=True).learn()
+        present = _alone(found.final, search, transient=True)
+        drift = learner(present=present, over_time=True).learn() if present.candidate.transient else learning
         learning = max(learning, drift, key=lambda one: one.worth)
     if learning.law is not None and found.final.candidate.effects:
-        final = search.beside(found.final, learning.law.fit.candidate.transient)
+        final = learning.present
         law = without_the_unseated(
             session,
             learning.law,
@@ -276,14 +277,15 @@ def _next_test(session: Session, found: Found) -> tuple[NextTest | None, list[No
         return None, [Note(NoteCode.NO_NEXT_TEST, {"reason": str(error)})]
 
 
-def _alone(fit: FinalFit, search: Search) -> FinalFit:
+def _alone(fit: FinalFit, search: Search, *, transient: bool = False) -> FinalFit:
     """The model with its effects and no others, refitted to the end from where it stands; slopes as they are there."""
     try:
-        candidate = search.models.alone(fit.candidate.effects, fit.candidate.nuisances)
+        candidate = search.models.alone(fit.candidate.effects, fit.candidate.nuisances, transient=transient)
     except BadInput:
         return fit
     finest = search.fine.finer()
-    again = converged(begin(candidate, fit.values, finest, None if candidate.has_events else fit))
+    alike = candidate.transient == fit.candidate.transient and not candidate.has_events
+    again = converged(begin(candidate, fit.values, finest, fit if alike else None))
     return again if again.good else fit
 
 
