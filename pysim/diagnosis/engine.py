@@ -246,8 +246,8 @@ def _learned(session: Session, search: Search, found: Found) -> Learning:
     learning = learner(present=found.final).learn()
     if session.has_clock and (learning.law is None or not search.is_done(learning.law.fit)):
         present = _alone(found.final, search, transient=True)
-        drift = learner(present=present, over_time=True).learn() if present.candidate.transient else learning
-        learning = max(learning, drift, key=lambda one: one.worth)
+        if present.candidate.transient:
+            learning = max(learning, learner(present=present, over_time=True).learn(), key=lambda one: one.worth)
     if learning.law is not None and found.final.candidate.effects:
         final = learning.present
         law = without_the_unseated(

@@ -223,10 +223,10 @@ class Search:
             BadInput: one cannot be built or simulated.
         """
         candidate = self.models.of(effects, present.candidate.nuisances)
-        found = screened(candidate, effects[-1], self.beside(present, candidate.transient), self.rough)
+        found = screened(candidate, effects[-1], self._beside(present, candidate.transient), self.rough)
         if not found:
             raise BadInput(f"{effects[-1].name}: the model cannot be simulated with it")
-        starts = [begin(candidate, one.values, self.rough, self.beside(present, candidate.transient)) for one in found]
+        starts = [begin(candidate, one.values, self.rough, self._beside(present, candidate.transient)) for one in found]
         best = min((fit for fit in starts if fit.good), key=lambda fit: fit.point.cost)
         return self._keep(self._fine_enough(converged(best, self.fine)))
 
@@ -253,7 +253,7 @@ class Search:
         """Penalised gain of a model."""
         if fit is base:
             return 0.0
-        base = self.beside(base, fit.candidate.transient)
+        base = self._beside(base, fit.candidate.transient)
         df, left = fit.candidate.size - base.candidate.size, rivals.of(fit)
         inflated = rivals.effective(left, rivals.of(base).residual - left.residual)
         return rivals.penalised(base.point.cost - fit.point.cost, df, inflated, rivals.samples(base))
@@ -306,7 +306,7 @@ class Search:
 
     def _expanded(self, present: FinalFit) -> Table:
         self.say.doing(f"trying effects beside {' + '.join(present.names) or 'the base model'}")
-        beside = partial(self.beside, present)
+        beside = partial(self._beside, present)
         near = self.floors.within(present, self.settings.near)
         starts = Starts(beside, self.fine if near else self.rough, near, self.settings)
         sizes = screen(self.models, beside, self.rough)
@@ -333,7 +333,7 @@ class Search:
                 self.beyond.add(added)
         return Table(present.candidate.labels, self.floors.potential(present), self._ordered(compared), tried)
 
-    def beside(self, fit: FinalFit, transient: bool) -> FinalFit:
+    def _beside(self, fit: FinalFit, transient: bool) -> FinalFit:
         """A fit compared by orbits or by transients, as a rival is."""
         if fit.candidate.transient == transient or fit.candidate.transient:
             return fit
@@ -351,7 +351,7 @@ class Search:
         Args:
             choices: ways to have come to the larger model by chance; all that was tried where None.
         """
-        smaller = self.beside(smaller, larger.candidate.transient)
+        smaller = self._beside(smaller, larger.candidate.transient)
         gain, size = smaller.point.cost - larger.point.cost, larger.candidate.size
         df = max(size - smaller.candidate.size, 1)
         return rivals.gain_test(smaller, larger, gain, df, size, choices or max(self.tried, 1), self.settings)
@@ -416,7 +416,7 @@ class Search:
 
     def vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest) -> GainTest:
         """A gain as logs that may choose and blocks left out see it: vetoed where either gets worse."""
-        smaller = self.beside(smaller, larger.candidate.transient)
+        smaller = self._beside(smaller, larger.candidate.transient)
         own, other = rivals.of(larger), rivals.of(smaller)
         apart = other.residual - own.residual
         blocks = own.blocks
@@ -471,7 +471,7 @@ class Search:
         where that promises to end hardly lower."""
         rough = converged(begin(candidate, values, self.rough, present))
         if not rough.good:
-            base = self.beside(self._fits[_key(self.models.of(()))], candidate.transient)
+            base = self._beside(self._fits[_key(self.models.of(()))], candidate.transient)
             rough = converged(begin(candidate, base.values, self.rough, base))
         known = self._fits.get(_key(candidate))
         fit = begin(candidate, rough.values, self.fine, rough) if rough.good else rough

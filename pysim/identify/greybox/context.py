@@ -69,9 +69,11 @@ class Context:
         Args:
             later: s by which all of it is moved, so that the model's `time` is the clock of all records.
         """
-        names, commands = map(self.variable, outputs), {name: one.later(later) for name, one in commands.items()}
-        rates = self.model.rate_inputs(commands)
-        return Experiment(times + later, tuple(names), commands, self.overrides, start + later, rates=rates)
+        names = tuple(self.variable(column) for column in outputs)
+        if later:  # a long log is not copied for nothing
+            times, start = times + later, start + later
+            commands = {name: signal.later(later) for name, signal in commands.items()}
+        return Experiment(times, names, commands, self.overrides, start, rates=self.model.rate_inputs(commands))
 
     def first_value(self, name: str) -> float:
         """An input's start value, at which the model starts."""
