@@ -23,6 +23,7 @@ from pysim.diagnosis.progress import Progress, Say
 from pysim.diagnosis.refit import FinalFit, begin, converged, integrated
 from pysim.diagnosis.search import Found, Search
 from pysim.diagnosis.session import Session
+from pysim.diagnosis.settings import LearnSettings
 from pysim.diagnosis.tone import tone
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput, Effect, NextTest, Note, NoteCode
@@ -229,35 +230,36 @@ def _answer(
 
 
 def _with_law(found: Found, models: Named, law: LawFit) -> tuple[Found, Named]:
-    """With a law in place of the effects that it made needless."""
-    kept = {effect.name for effect in law.fit.candidate.effects}
-    unseated = {effect.name for effect in found.final.candidate.effects} - kept
-    losses = {name: loss for name, loss in found.losses.items() if name not in unseated}
-    beside = [(name, fit) for name, fit in models if unseated.isdisjoint(fit.names)]
+    """With a law in place of what it made needless."""
+    kept = set(law.fit.candidate.labels)
+    losses = {label: loss for label, loss in found.losses.items() if label in kept}
+    beside = [(name, fit) for name, fit in models if kept.issuperset(fit.candidate.labels)]
     floors = found.floors.with_(law.fit)
     return replace(found, final=law.fit, floors=floors, losses=losses), [*beside, (law.law.label, law.fit)]
 
 
 def _learned(session: Session, search: Search, found: Found) -> Learning:
-    """The best law beside the final model."""
-    learner = partial(
-        Learner, session, floors=found.floors, tried=search.tried, veto=search.vetoed, say=search.say.doing
-    )
-    learning = learner(present=found.final).learn()
-    if session.has_clock and (learning.law is None or not search.is_done(learning.law.fit)):
-        present = _alone(found.final, search, transient=True)
-        if present.candidate.transient:
-            learning = max(learning, learner(present=present, over_time=True).learn(), key=lambda one: one.worth)
-    if learning.law is not None and found.final.candidate.effects:
-        final = learning.present
+    """The best law beside the final model; beside the base model first where effects take so little that a law which
+    is worth a name would unseat them all."""
+    floors, settings = found.floors, LearnSettings()
+    base, final = floors.avoidable(found.base), floors.avoidable(found.final)
+    hardly = found.final is not found.base and base - final < settings.unseats * base
+    for present in [found.base, found.final] if hardly else [found.final]:
+        if session.has_clock and not present.candidate.transient:
+            present = _alone(present, search, transient=True)
+        learning = Learner(session, present, floors, search.tried, search.vetoed, search.say.doing).learn()
+        if learning.law is not None and final - floors.avoidable(learning.law.fit) > settings.unseats * base:
+            break
+    if learning.law is not None and learning.present.candidate.effects:
+        nuisances = learning.present.candidate.nuisances
         law = without_the_unseated(
             session,
             learning.law,
-            final,
+            learning.present,
             found.base,
             found.losses,
-            partial(search.models.alone, nuisances=final.candidate.nuisances),
-            found.floors.sd,
+            partial(search.models.alone, nuisances=nuisances),
+            floors,
             search.tried,
         )
         learning = replace(learning, fits=(law, *learning.fits[1:]))

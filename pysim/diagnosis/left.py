@@ -102,6 +102,12 @@ class Floors:
         """Whether every residual is within a factor of its floor."""
         return all(ratio < factor for ratio in self.over(fit).values())
 
+    def avoidable(self, fit: FinalFit) -> float:
+        """Sum of squares beyond the floors, over their variance."""
+        samples = fit.candidate.residuals(fit.simulation).samples
+        squares = np.square(list(self.over(fit).values()))
+        return float(np.sum(samples * np.maximum(squares - 1.0, 0.0)))
+
     def potential(self, fit: FinalFit) -> float:
         """Nats that a model which left nothing but the floor would gain."""
         residuals = fit.candidate.residuals(fit.simulation)

@@ -66,12 +66,11 @@ class Learner:
 
     Args:
         session: whose model; it must be able to compile laws.
-        present: the model that lacks something, refitted.
+        present: the model that lacks something, refitted; laws over time are tried where it is compared by transients.
         floors: noise of each channel.
         tried: effects that were tried before, which count as choices.
         veto: see Veto.
         say: gets what is being done.
-        over_time: whether laws over time are tried, and no others; the model is then compared by transients.
     """
 
     def __init__(
@@ -83,15 +82,12 @@ class Learner:
         veto: Veto,
         say: Say,
         settings: LearnSettings | None = None,
-        *,
-        over_time: bool = False,
     ) -> None:
         assert session.build_law is not None
         self._compile = session.build_law
         self._session, self._present, self._floors, self._tried = session, present, floors.sd, tried
         self._veto, self._say, self._settings = veto, say, settings or LearnSettings()
         self._refused: dict[str, str] = {}
-        self._over_time = over_time
         self._rough = floors.roughest(present, session.settings.fine)
 
     def learn(self) -> Learning:
@@ -103,7 +99,8 @@ class Learner:
         models = {place.key: model for place in where if (model := self._model(place, self._settings.knots))}
         signals = seen(self._present, self._present.candidate.model, [one.place for one in models.values()])
         laws = distinct([one.place for one in models.values()], signals) if signals else []
-        laws = [law for law in laws if (law.argument == TIME) == self._over_time]
+        clock = self._session.has_clock and self._present.candidate.transient
+        laws = [law for law in laws if clock or law.argument != TIME]
         self._say(f"trying {len(laws)} laws at {len(models)} places")
         ranked = screen(self._rough, models, laws, signals, self._floors)
         chosen = [one for one in ranked if one.score > 0 and one.score >= self._settings.near * ranked[0].score]

@@ -17,10 +17,10 @@ from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.learn.fit import LawFit, ended, settled, started
 from pysim.diagnosis.learn.laws import Law, Terms
 from pysim.diagnosis.learn.screening import LawModel, patient
+from pysim.diagnosis.left import Floors
 from pysim.diagnosis.refit import FinalFit, begin
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
-from pysim.identify.greybox.residuals import Channel
 from pysim.types import BadInput, Effect
 from pysim.types.answer import GainTest
 
@@ -42,7 +42,7 @@ def without_the_unseated(
     base: FinalFit,
     losses: Mapping[str, GainTest],
     alone: Alone,
-    floors: Mapping[Channel, float],
+    floors: Floors,
     tried: int,
     settings: LearnSettings | None = None,
 ) -> LawFit:
@@ -55,15 +55,14 @@ def without_the_unseated(
         tried: choices, for the test of each effect.
     """
     settings = settings or LearnSettings()
-    best, before = law, _left(present, floors)
-    avoidable = _left(base, floors)
+    best, before, avoidable = law, floors.avoidable(present), floors.avoidable(base)
     for effect in sorted(present.candidate.effects, key=lambda one: losses[one.name].gain):
         if refines(law.law, effect):
             continue
         smaller = _without(session, best, effect, alone, settings)
         if smaller is None or avoidable <= 0:
             continue
-        better = (before - _left(smaller.fit, floors)) / avoidable
+        better = (before - floors.avoidable(smaller.fit)) / avoidable
         if better < settings.unseats:
             continue
         size, gain = best.fit.candidate.size, smaller.cost - best.cost
@@ -72,13 +71,6 @@ def without_the_unseated(
         if test.p_value >= session.settings.false_alarm:
             best = smaller
     return best
-
-
-def _left(fit: FinalFit, floors: Mapping[Channel, float]) -> float:
-    """Sum of squares beyond the noise, over its variance."""
-    residuals = fit.candidate.residuals(fit.simulation)
-    noise = np.array([floors[channel] ** 2 for channel in residuals.channels])
-    return float(np.sum(np.maximum(fit.point.squares / noise - residuals.samples, 0.0)))
 
 
 def _without(session: Session, law: LawFit, effect: Effect, alone: Alone, settings: LearnSettings) -> LawFit | None:
