@@ -100,6 +100,7 @@ def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
     words = f"Workbench: {address}\nProject: {desk.project.folder}\n{opened(host)}Ctrl-C ends it."
     _routes(desk)
     app.add_static_files("/static", _STATIC)
+    app.config.quasar_config["loadingBar"] = {"skipHijack": True}  # it says nothing to those who cannot see it
     app.timer(_TICK, desk.tick)
     app.on_startup(lambda: _announce(words, host, port, address if show else ""))
     app.on_startup(desk.read)

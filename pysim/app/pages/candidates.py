@@ -110,7 +110,7 @@ def _named(effect: Mapping[str, Any], *, tied: bool = False) -> None:
         if tied:
             text("span", "tied", "chip").props('title="These data cannot tell the tied apart"')
     if effect.get("law"):
-        text("div", str(effect["law"]), "law")
+        text("div", str(effect["law"]), "law").props("tabindex=0")  # a long one is scrolled
 
 
 def _trying(desk: Desk, name: str) -> None:

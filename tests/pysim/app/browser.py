@@ -178,6 +178,16 @@ class Tab:
         """Wait until nothing runs."""
         self.page.locator(".job").wait_for(state="detached", timeout=1000 * timeout)
 
+    def accessible(self, *, timeout: float = 10.0) -> None:
+        """Wait until axe-core finds nothing that some could not see, reach or hear."""
+        from axe_playwright_python.sync_playwright import Axe
+
+        begun, found = time.monotonic(), ["nothing looked at"]
+        while found and time.monotonic() - begun < timeout:  # a drawing that is not done yet is no finding
+            rules = Axe().run(self.page).response["violations"]
+            found = [f"{rule['id']}: {node['html']}" for rule in rules for node in rule["nodes"]]
+        assert not found, found
+
     def shot(self, name: str) -> None:
         """Keep a screenshot as an artefact."""
         if self._artefacts is not None:

@@ -16,6 +16,7 @@ def missing() -> str:
     for module, cure in (
         ("nicegui", 'pip install ".[app]"'),
         ("playwright", "pip install playwright"),
+        ("axe_playwright_python", "pip install axe-playwright-python"),
     ):
         if importlib.util.find_spec(module) is None:
             return f"{module} is not installed ({cure})"

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from pysim.io import read_model, write_dataset
-from tests.pysim.app.browser import Shown, Tab, artefacts, server
+from tests.pysim.app.browser import SIZE, Shown, Tab, artefacts, server
 from tests.toy import CATALOGUE, TEXT, measured
 
 pytestmark = pytest.mark.slow
@@ -43,36 +43,39 @@ def test_from_the_dropped_folder_to_the_downloaded_fmu(
     assert len(str(project)) >= LONG
     with server(project) as address:
         tab = begun(shown, address, dropped)
-        tab.shot("data")
+        _looked_at(tab, "data")
         tab.press("Compare and refit")
         tab.see("Where the error is", timeout=PATIENCE)
         _a_cell_opens_its_record(tab)
-        tab.shot("compare")
+        _looked_at(tab, "compare")
         tab.go("Locate")
         tab.press("Locate")
         tab.see("What force would need", timeout=PATIENCE)
         _a_slot_is_picked_by_keyboard(tab)
-        tab.shot("locate")
+        _looked_at(tab, "locate")
         tab.go("Candidates")
         tab.press("Rank the candidates")
         tab.see("of the misfit (refitted)", timeout=PATIENCE)
         first = tab.page.locator(".candidate").first
         assert "Dry friction" in first.inner_text()
-        tab.shot("candidates")
+        _looked_at(tab, "candidates")
+        tab.page.set_viewport_size({"width": 420, "height": 800})
+        _looked_at(tab, "candidates-narrow")
+        tab.page.set_viewport_size(SIZE)
         tab.page.locator(".candidate", has_text="toy.friction").get_by_role("button", name="Try").click()
         tab.see("Undo toy.friction", timeout=PATIENCE)
-        tab.shot("add")
+        _looked_at(tab, "add")
         numbers = tab.page.locator(".chart .annotation-text").all_text_contents()
         assert min(float(text) for text in numbers if text[:1].isdigit()) < 1.1  # nothing but noise is left
         tab.go("Locate")
-        tab.shot("added")
+        _looked_at(tab, "added")
         assert "+ toy.friction" in tab.page.locator(".drawing [data-name=force]").text_content()
         tab.go("Take away")
         with tab.page.expect_download() as download:
             tab.page.locator(".file", has_text="FMU").get_by_text("Download").first.click()
         fmu = tmp_path / "taken.fmu"
         download.value.save_as(fmu)
-        tab.shot("take")
+        _looked_at(tab, "take")
         model = read_model(fmu)
         assert model.name == "MassWithRubbing"
         assert model["force.F_c"].start == pytest.approx(0.4, abs=0.02)
@@ -81,6 +84,12 @@ def test_from_the_dropped_folder_to_the_downloaded_fmu(
     inside = [str(path.relative_to(project)) for path in project.rglob("*")]
     deepest = max(inside, key=len)
     assert LONG + 1 + len(deepest) <= LONGEST, deepest
+
+
+def _looked_at(tab: Tab, name: str) -> None:
+    """A picture of a page that everybody can use."""
+    tab.accessible()
+    tab.shot(name)
 
 
 def _a_slot_is_picked_by_keyboard(tab: Tab) -> None:
