@@ -151,14 +151,20 @@ def _content(
     record: MeasuredRecord, units: Mapping[str, str], scales: Mapping[str, Scale], digits: Mapping[str, int | None]
 ) -> str:
     if isinstance(record.data, FrequencyResponse):
-        return _table(record.data, scales)
+        return _table(record, record.data, scales)
     log = record.data
     columns = [log.time, *((log[name] - scales[name].zero) / scales[name].gain for name in log.names)]
     heads = ["time_s", *(name + _suffix(units[name]) for name in log.names)]
     decimals = [None if None in digits.values() else _time_digits(log.time), *(digits[name] for name in log.names)]
-    form = "\t".join("%.17g" if count is None else f"%.{count}f" for count in decimals)
+    between = _between(record, heads)
+    form = between.join("%.17g" if count is None else f"%.{count}f" for count in decimals)
     rows = (form % row for row in zip(*(column.tolist() for column in columns), strict=True))
-    return "\n".join(["\t".join(heads), *rows]) + "\n"
+    return "\n".join([between.join(heads), *rows]) + "\n"
+
+
+def _between(record: MeasuredRecord, heads: Sequence[str]) -> str:
+    """What separates columns: commas in a .csv, unless a name has one; else tabs."""
+    return "," if record.source.lower().endswith(".csv") and not any("," in head for head in heads) else "\t"
 
 
 def _time_digits(time: Array) -> int:
@@ -173,11 +179,12 @@ def _suffix(unit: str) -> str:
     return "" if unit == "1" else f"_{word}"
 
 
-def _table(response: FrequencyResponse, scales: Mapping[str, Scale]) -> str:
+def _table(record: MeasuredRecord, response: FrequencyResponse, scales: Mapping[str, Scale]) -> str:
     scale = scales[response.test.output].gain / scales[response.test.input].gain
     columns = response.frequency, 20 * np.log10(response.gain / scale), np.degrees(response.phase)
-    rows = (f"{f!r}\t{db!r}\t{deg!r}" for f, db, deg in zip(*(column.tolist() for column in columns), strict=True))
-    return "\n".join(["\t".join(TABLE_COLUMNS), *rows]) + "\n"
+    between = _between(record, TABLE_COLUMNS)
+    rows = (between.join(map(repr, row)) for row in zip(*(column.tolist() for column in columns), strict=True))
+    return "\n".join([between.join(TABLE_COLUMNS), *rows]) + "\n"
 
 
 def _description(

@@ -225,7 +225,7 @@ class Fit(Shown):
         from pysim.nouns.data import as_text
 
         place, begun = Path(folder), self.begun
-        write_dataset(place / _DATA, as_text(self.dataset, (".txt", ".csv")), exact=True)
+        write_dataset(place / _DATA, as_text(self.dataset), exact=True)
         shutil.copyfile(begun.base.path, place / _FMU)
         asked = {
             **{name: getattr(begun, name) for name in _SAID},

@@ -54,7 +54,7 @@ def test_single_logs_are_described_on_the_page(shown: Shown, show: Show, logs: l
         "x": {"role": "output", "unit": "mm", "quantity": "x", "noise": 0.5},
     }  # fmt: skip
     assert [(r["file"], r["use"]) for r in found["records"]] == [
-        ("run1.txt", "fit"), ("run2.txt", "fit"), ("run3.txt", "validate"),
+        ("run1.csv", "fit"), ("run2.csv", "fit"), ("run3.csv", "validate"),
     ]  # fmt: skip
     assert found["records"][0]["columns"] == ["time", "F", "x"]
     assert (folder / "earlier/data-1/run1.csv").read_bytes() == logs[0].read_bytes()  # as it was dropped

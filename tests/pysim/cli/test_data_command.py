@@ -129,7 +129,7 @@ def test_logs_are_prepared_into_a_new_data_set(tmp_path: Path, capsys: pytest.Ca
     assert main(["data", "prepare", str(tmp_path / "run*.csv"), *words, *into]) == 0
     assert "never falls and rises by 0.01" in capsys.readouterr().out
     data = read_dataset(tmp_path / "ready")
-    assert [(record.source, record.use) for record in data.records] == [("run1.txt", "fit"), ("run2.txt", "test")]
+    assert [(record.source, record.use) for record in data.records] == [("run1.csv", "fit"), ("run2.csv", "test")]
     log = data.records[0].data
     assert isinstance(log, Record)
     np.testing.assert_allclose(log["x"], 2e-3 * np.cos(log.time), rtol=1e-12)

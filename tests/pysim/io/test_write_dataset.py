@@ -43,6 +43,18 @@ TIME = np.arange(50) / 70
 VALUES = np.random.default_rng(1).normal(size=(50, 3)) * [40.0, 3e6, 10.0]
 
 
+def test_a_csv_has_commas_between_its_columns(tmp_path: Path) -> None:
+    data = dataset(VALUES, TIME)
+    (first, *others) = data.records
+    data = replace(data, records=(replace(first, source="run.CSV"), *others))
+    back = written(tmp_path / "new", data)
+    heading, row, *_ = (tmp_path / "new" / "run.CSV").read_text().splitlines()
+    assert heading.split(",") == ["time_s", "cmd_pct", "p A_bar", "w_rpm"]
+    assert len(row.split(",")) == 4
+    assert (tmp_path / "new" / "w.txt").read_text().splitlines()[0] == "time_s\tw_rpm\tcmd_pct"
+    assert back.records[0].data.values[:, 0] == pytest.approx(np.round(VALUES[:, 0], 4))
+
+
 def test_everything_comes_back(tmp_path: Path) -> None:
     data = dataset(VALUES, TIME)
     back = written(tmp_path / "new", data)
