@@ -27,6 +27,7 @@ BENCHMARKS: Mapping[str, str] = MappingProxyType(
         "sixteen-times": "sixteen_times",
         "ten-million": "ten_million",
         "cluster": "cluster",
+        "workbench": "workbench",
     }
 )
 
