@@ -235,7 +235,7 @@ def overlay_chart(
         traces: as `traces` gives them.
     """
     layout: dict[str, Any] = {"xaxis": axis("Time (s)", showgrid=True)}
-    heights = [weight for _ in names for weight in ((3.0, 1.6) if models else (3.0,))]
+    heights = [weight for _ in names for weight in ((3.0, 2.0) if models else (3.0,))]
     gap = 0.045
     free, top = 1.0 - gap * (len(heights) - 1), 1.0
     for k, weight in enumerate(heights):
@@ -243,7 +243,7 @@ def overlay_chart(
         name = names[k // 2] if models else names[k]
         unit = units[k // 2] if models else units[k]
         residual = bool(models) and k % 2 == 1
-        title = "left over<br>(noise s.d.)" if residual else f"{plain(name)} ({unit_text(unit)})"
+        title = "residual<br>(noise s.d.)" if residual else f"{plain(name)}<br>({unit_text(unit)})"
         low = max(top - size, 0.0)
         layout[f"yaxis{k + 1 if k else ''}"] = axis(title, domain=[low, top], anchor="x")
         top -= size + gap

@@ -184,7 +184,7 @@ class _Follows:
         figure = followed_overlay(found).figure()
         if self._chart is None:
             with self._place:
-                self._chart = Chart(figure, "Measured and simulated", height=70 + 155 * len(found["names"]))
+                self._chart = Chart(figure, "Measured and simulated", height=70 + 170 * len(found["names"]))
         else:
             lines = [k for k, one in enumerate(figure["data"]) if one["legendgroup"] != "measured"]
             self._chart.follow([figure["data"][k]["y"] for k in lines], lines, move)

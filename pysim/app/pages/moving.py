@@ -56,7 +56,7 @@ class _Moving:
         label, figure = f"The log with the best values, {job.curves['error']:.3g} times the noise", overlay.figure()
         if self._curves is None:
             with self._beside:
-                self._curves = Chart(figure, label, height=70 + 130 * len(overlay.names))
+                self._curves = Chart(figure, label, height=70 + 170 * len(overlay.names))
         else:
             self._curves.show(figure, label)
 

@@ -138,16 +138,16 @@ def test_of_a_file_with_two_records_each_has_its_own_curves_and_error(shown: Sho
     answered(folder, [{**own, "step": step, "records": records, "responses": []} for step in ("prior", "refit")])
     tab = Tab(shown, show(folder), artefacts())
     tab.go("Compare")
-    assert opened(tab) == ("used to choose", "z (%)")  # the one that is worse
+    assert opened(tab) == ("used to choose", "z<br>(%)")  # the one that is worse
     rows = tab.page.locator("tr", has_text="both.txt")
     assert [row.split()[1:] for row in rows.all_inner_texts()] == [["fitted", "2.00"], ["used", "to", "choose", "7.00"]]
     rows.nth(0).click()
     tab.page.locator("#record .chip", has_text="fitted").wait_for()
-    assert opened(tab) == ("fitted", "y (%)")
+    assert opened(tab) == ("fitted", "y<br>(%)")
     tab.shot("two records")
     tab.pick("Map of the error", 0.75, 0.75)
     tab.page.locator("#record .chip", has_text="used to choose").wait_for()
-    assert opened(tab) == ("used to choose", "z (%)")
+    assert opened(tab) == ("used to choose", "z<br>(%)")
     assert tab.errors == []
 
 

@@ -7,14 +7,14 @@ from pysim.present.overlay import overlay_chart, signal_trace
 
 def test_without_models_every_signal_has_one_panel_in_the_unit_people_read() -> None:
     layout = overlay_chart(["x", "<b>"], ["mm", "deg"], [], [])["layout"]
-    assert [layout[name]["title"]["text"] for name in ("yaxis", "yaxis2")] == ["x (mm)", "&lt;b&gt; (°)"]
+    assert [layout[name]["title"]["text"] for name in ("yaxis", "yaxis2")] == ["x<br>(mm)", "&lt;b&gt;<br>(°)"]
     assert "yaxis3" not in layout
     assert layout["shapes"] == []
 
 
 def test_what_is_left_over_stands_below_with_the_band_that_holds_95_percent_of_noise() -> None:
     layout = overlay_chart(["x"], [""], [("refit", "refitted")], [])["layout"]
-    assert [layout[name]["title"]["text"] for name in ("yaxis", "yaxis2")] == ["x (–)", "left over<br>(noise s.d.)"]
+    assert [layout[name]["title"]["text"] for name in ("yaxis", "yaxis2")] == ["x<br>(–)", "residual<br>(noise s.d.)"]
     assert layout["yaxis2"]["domain"][1] < layout["yaxis"]["domain"][0]
     assert layout["xaxis"]["anchor"] == "y2"
     (band,) = layout["shapes"]

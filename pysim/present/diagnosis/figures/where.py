@@ -148,7 +148,7 @@ def map_chart(
     high = max([10.0, *(v for row in values for v in row if v is not None)])
     ticks = [t for t in (1, 2, 5, 10, 20, 50, 100, 200, 500, 1000) if t <= high]
     bar: dict[str, Any] = {"tickvals": [math.log10(t) for t in ticks], "ticktext": [f"{t:g}" for t in ticks]}
-    bar |= {"title": {"text": "residual over noise", "side": "right"}, "thickness": 10, "outlinewidth": 0, "len": 1}
+    bar |= {"title": {"text": "over noise", "side": "right"}, "thickness": 10, "outlinewidth": 0, "len": 1}
     colours = {"zmin": 0, "zmax": math.log10(high), "colorscale": "@heat", "colorbar": bar, "showscale": scale}
     more = {**colours, "hoverongaps": False, "textfont": {"size": 11.5}}
     more["hovertemplate"] = "%{y}<br>%{x}: %{text} x noise<extra></extra>"
