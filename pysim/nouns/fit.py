@@ -134,9 +134,9 @@ class Fit(Shown):
     def warnings(self) -> tuple[str, ...]:
         """Why not to trust it, in sentences; none where nothing speaks against it."""
         from pysim.identify.greybox import fit_warnings
-        from pysim.present.notes import words
+        from pysim.present.notes import sentences
 
-        return tuple(words(note) for note in fit_warnings(self.found))
+        return tuple(sentences(fit_warnings(self.found)))
 
     @property
     def _alarms(self) -> tuple[str, ...]:

@@ -187,6 +187,17 @@ def _change(factor: float) -> str:
     return f"{1 / factor:.2g} times smaller" if factor <= 0.5 else f"{100 * (1 - factor):.2g} % smaller"
 
 
+def sentences(notes: Sequence[Note]) -> list[str]:
+    """Notes in sentences, in their order; parameters at their bounds share one, where the first of them stands."""
+    ends = [note for note in notes if note.code is NoteCode.AT_BOUND]
+    if len(ends) < 2:
+        return [words(note) for note in notes]
+    places = listed([f"{note.values['parameter']} ({_shown(note)})" for note in ends])
+    text = f"{places} stopped at their bounds: widen those beyond which values make sense, or fix the parameters."
+    kept = [note for note in notes if note.code is not NoteCode.AT_BOUND or note is ends[0]]
+    return [text if note is ends[0] else words(note) for note in kept]
+
+
 def words(note: Note) -> str:
     """One note in sentences; ahead of them the frequency that it is of, where its values have one as "at".
 
@@ -201,10 +212,12 @@ def words(note: Note) -> str:
         values = {"widths": ", ".join(f"{name} {value:.2g}" for name, value in values.items())}
     others = float(values.get("others", 0.0))
     values["more"] = f" and {others:.0f} more" if others else ""
-    number, unit = values.get("value", values.get("bound")), str(values.get("unit", "1"))
-    if not isinstance(number, str) and number is not None:
-        values["shown"] = shown_value(float(number), unit, ".3g")
-    elif number is not None:
-        values["shown"] = number
+    values["shown"] = _shown(note)
     text = _WORDS[note.code].format_map(values)
     return f"{values['at']:g} Hz: {text}" if "at" in values else text
+
+
+def _shown(note: Note) -> str:
+    """Its number as people read it; "" where it has none."""
+    number = note.values.get("value", note.values.get("bound", ""))
+    return number if isinstance(number, str) else shown_value(float(number), str(note.values.get("unit", "1")), ".3g")

@@ -25,7 +25,7 @@ from pysim.present.diagnosis.words import (
     step_name,
     verdict_sentence,
 )
-from pysim.present.notes import listed, words
+from pysim.present.notes import listed, sentences, words
 from pysim.present.plain_text import wrapped
 from pysim.types import Dataset, Diagnosis, LearnedLaw, answer_data
 from pysim.types.answer import PRIOR
@@ -88,7 +88,7 @@ def data(result: Diagnosed) -> dict[str, object]:
     """The answer, with its verdict, notes and doubts in words too; every number is finite or None."""
     found = result.found
     notes = [{"code": one.code.value, "values": dict(one.values), "text": words(one)} for one in found.notes]
-    warnings = {one.step: [words(note) for note in step_warnings(one)] for one in found.history if one.step != PRIOR}
+    warnings = {one.step: sentences(step_warnings(one)) for one in found.history if one.step != PRIOR}
     shown = {"reason": verdict_sentence(found), "notes": notes, "warnings": warnings}
     if found.next_test is not None:
         shown["next_test_about"] = next_test_sentence(found.next_test)
@@ -202,5 +202,5 @@ def _open(diagnosis: Diagnosis) -> Iterator[str]:
         yield from _indented(f"These data cannot tell apart: {listed(group)}.")
     if diagnosis.next_test is not None:
         yield from _indented(f"Next test: {next_test_sentence(diagnosis.next_test)}")
-    for note in diagnosis.notes:
-        yield from _indented(f"Note: {words(note)}")
+    for text in sentences(diagnosis.notes):
+        yield from _indented(f"Note: {text}")

@@ -22,7 +22,7 @@ from pysim.present.diagnosis.words import (
     step_name,
     verdict_sentence,
 )
-from pysim.present.notes import USES, direction_words, estimate_words, listed, words
+from pysim.present.notes import USES, direction_words, estimate_words, listed, sentences
 from pysim.present.page import cell, commands, heading, items, paragraph, pictures, statement, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
@@ -65,7 +65,7 @@ def page(result: Diagnosed, drawings: Sequence[Drawing], redo: str) -> str:
             "", "The next test", paragraph(next_test_sentence(test)), commands(test.plan) if test.plan else ""
         )
     if diagnosis.notes:
-        parts += section("", "What to bear in mind", items(map(words, diagnosis.notes)))
+        parts += section("", "What to bear in mind", items(sentences(diagnosis.notes)))
     conditions = {**diagnosis.conditions, **{f"time for {k}": f"{v:.1f} s" for k, v in diagnosis.seconds.items()}}
     lines = [f"{name}: {text}" for name, text in conditions.items()]
     beside = [*result.files.values(), *files(result)]

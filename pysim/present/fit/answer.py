@@ -9,7 +9,7 @@ from typing import Any
 
 from pysim.identify.greybox import Profile, fit_warnings
 from pysim.io import shown_value
-from pysim.present.notes import USES, direction_words, estimate_words, words
+from pysim.present.notes import USES, direction_words, estimate_words, sentences, words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
 from pysim.present.plain_text import wrapped
@@ -46,8 +46,9 @@ def text(result: Fitted) -> str:
     lines += [f"  {c.name} = {c.value:.5g}, 95 % {c.interval[0]:.5g} to {c.interval[1]:.5g}" for c in fit.combinations]
     lines += [f"  {text}" for text in _left_over(fit)]
     warnings = fit_warnings(fit)
-    for note in (*warnings, *(note for note in fit.notes if note not in warnings)):
-        lines += wrapped(f"{'Warning' if note in warnings else 'Note'}: {words(note)}")
+    others = [note for note in fit.notes if note not in warnings]
+    for kind, texts in (("Warning", sentences(warnings)), ("Note", sentences(others))):
+        lines += [line for text in texts for line in wrapped(f"{kind}: {text}")]
     lines += [f"Profile of {p.name}: 95 % from {p.interval[0]:.5g} to {p.interval[1]:.5g}" for p in result.profiles]
     return "\n".join(lines)
 
@@ -157,9 +158,9 @@ def page(result: Fitted, drawings: Sequence[Drawing], redo: str) -> str:
         f"{gain_text(fit).capitalize()}.",
     ]
     warnings = fit_warnings(fit)
-    notes = [words(note) for note in fit.notes if note not in warnings]
+    notes = sentences([note for note in fit.notes if note not in warnings])
     parts = [heading("Outcome"), items([*verdict, *notes])]
-    parts += [heading("When not to trust it"), items(map(words, warnings))] if warnings else []
+    parts += [heading("When not to trust it"), items(sentences(warnings))] if warnings else []
     parts += [heading("Parameters"), _estimates_table(fit.estimates, "Estimates with 95 percent intervals")]
     parts += (
         [_estimates_table(fit.initial, "States at the first sample of a log, estimated from it")] if fit.initial else []

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from pysim.present.notes import direction_words, words
+from pysim.present.notes import direction_words, sentences, words
 from pysim.types import Direction
 from pysim.types.note import Note, NoteCode
 
@@ -106,3 +106,17 @@ def test_what_is_not_told_apart_comes_with_its_sizes(
 ) -> None:
     text = direction_words(Direction(exponents, spread))
     assert all(one in text for one in said)
+
+
+def test_parameters_at_their_bounds_share_a_sentence() -> None:
+    ends = [
+        Note(NoteCode.AT_BOUND, {"parameter": name, "bound": 60.0, "value": 60.0, "unit": "kg"}) for name in ("m", "n")
+    ]
+    other = Note(NoteCode.NOT_COMPARED, {"record": "a.txt"})
+    assert sentences([other, *ends, other]) == [
+        words(other),
+        "m (60 kg) and n (60 kg) stopped at their bounds: widen those beyond which values make sense, or fix the "
+        "parameters.",
+        words(other),
+    ]
+    assert sentences(ends[:1]) == [words(ends[0])]
