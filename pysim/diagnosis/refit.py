@@ -118,14 +118,6 @@ def begin(candidate: Candidate, values: Values, simulation: Simulation, present:
     return begun(candidate, evaluate(x, carried), simulation, evaluate)
 
 
-def seen_by(fit: FinalFit, simulation: Simulation) -> FinalFit:
-    """The same point by other runs, without slopes."""
-    candidate, point = fit.candidate, fit.point
-    residuals = candidate.residuals(simulation)
-    other = residuals.evaluate(candidate.model, candidate.space, point.x, point.carried, jacobian=False, states=False)
-    return FinalFit(candidate, State(other), simulation, fit.evaluate)
-
-
 def begin_anywhere(candidate: Candidate, simulation: Simulation) -> FinalFit:
     """The candidate at its own values, or where a search on longer and longer stretches of its logs has come."""
     residuals = candidate.residuals(simulation)

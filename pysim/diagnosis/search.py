@@ -17,7 +17,7 @@ from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, begin, begin_anywhere, converged, race, seen_by
+from pysim.diagnosis.refit import FinalFit, begin, begin_anywhere, converged, race
 from pysim.diagnosis.screen import Screened, best_of_each, screen, screened
 from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts, with_sensor_errors
@@ -155,12 +155,18 @@ class Search:
         return self._keep(base)
 
     def _fine_enough(self, fit: FinalFit) -> FinalFit:
-        """A fit integrated so finely that the error is small beside the floor: a sharp law asks for more."""
+        """A fit integrated so finely that the error is small beside the floor, and that finer runs promise hardly more:
+        a sharp law asks for it, whose slopes err before its signals do."""
         for _ in range(self.settings.refinements if fit.good else 0):
-            other = seen_by(fit, fit.simulation.finer())
-            if not other.good or self.floors.with_(fit).between(fit, other) < self.settings.fine:
+            other = begin(fit.candidate, fit.values, fit.simulation.finer(), fit)
+            if not other.good:
                 break
-            fit = converged(begin(fit.candidate, fit.values, other.simulation, fit))
+            floors = self.floors.with_(fit)
+            hardly = max(self.settings.anew, self.settings.small * floors.potential(fit))
+            promised = other.point.cost - other.expected
+            if promised < hardly and floors.between(fit, other) < self.settings.fine:
+                break
+            fit = converged(other)
         return fit
 
     def _once(self, part: str, find: Callable[[], FinalFit], candidate: Candidate) -> FinalFit:

@@ -11,7 +11,7 @@ import pytest
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, begin, seen_by
+from pysim.diagnosis.refit import FinalFit, begin
 from pysim.diagnosis.search import Search
 from pysim.diagnosis.session import session
 from pysim.diagnosis.settings import Settings
@@ -99,5 +99,6 @@ def test_rivals_end_by_runs_as_fine_as_each_needs() -> None:
     ended = [one.fit for one in search.expand(base).rivals if one.fit.ended]
     assert {fit.names for fit in ended} >= {("mass.friction",), ("mass.stick_slip",)}
     for fit in ended:
-        assert search.floors.between(fit, seen_by(fit, fit.simulation.finer(1e-3))) < 1.5 * opened.settings.fine
+        finer = begin(fit.candidate, fit.values, fit.simulation.finer(1e-3), fit)
+        assert search.floors.between(fit, finer) < 1.5 * opened.settings.fine
     assert min(fit.simulation.solver.rtol for fit in ended) < base.simulation.solver.rtol
