@@ -333,7 +333,7 @@ def load(
 def as_text(dataset: Dataset) -> Dataset:
     """The same with names for files of text."""
     names = [PurePosixPath(record.source) for record in dataset.records]
-    texts = [name if name.suffix in (".txt", ".csv") else name.with_suffix(".txt") for name in names]
+    texts = [name if name.suffix.lower() in (".txt", ".csv") else name.with_suffix(".txt") for name in names]
     records = (replace(r, source=text.as_posix()) for r, text in zip(dataset.records, texts, strict=True))
     return replace(dataset, records=tuple(records))
 

@@ -212,12 +212,12 @@ def words(note: Note) -> str:
         values = {"widths": ", ".join(f"{name} {value:.2g}" for name, value in values.items())}
     others = float(values.get("others", 0.0))
     values["more"] = f" and {others:.0f} more" if others else ""
-    values["shown"] = _shown(note)
+    values |= {"shown": _shown(note)} if {"value", "bound"} & values.keys() else {}
     text = _WORDS[note.code].format_map(values)
     return f"{values['at']:g} Hz: {text}" if "at" in values else text
 
 
 def _shown(note: Note) -> str:
-    """Its number as people read it; "" where it has none."""
-    number = note.values.get("value", note.values.get("bound", ""))
+    """Its number as people read it."""
+    number = note.values["value" if "value" in note.values else "bound"]
     return number if isinstance(number, str) else shown_value(float(number), str(note.values.get("unit", "1")), ".3g")
