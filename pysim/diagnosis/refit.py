@@ -134,13 +134,6 @@ def begun(candidate: Candidate, point: Point, simulation: Simulation, evaluate: 
     return _watched(FinalFit(candidate, _expecting(state, bounds), simulation, evaluate))
 
 
-def cost_at(candidate: Candidate, values: Values, simulation: Simulation, present: FinalFit) -> float:
-    """Of a start that goes on from the present model, without slopes; infinite where it could not be simulated."""
-    x, carried = candidate.at(values), candidate.carried(present.candidate, present.point)
-    residuals = candidate.residuals(simulation)
-    return residuals.evaluate(candidate.model, candidate.space, x, carried, jacobian=False, states=False).cost
-
-
 def again(
     candidate: Candidate, x: Array, carried: Carried, simulation: Simulation, outcome: FitOutcome | None, tried: int
 ) -> FinalFit:
@@ -234,11 +227,14 @@ class Runner:
         start: simulates it where its refit begins.
         before: cost of the present model, compared as the rival is.
         most: nats that it can gain; infinite where nobody knows.
+        beside: whether it starts as good as where the present model stands, so that its slopes there tell what it may
+            gain, within orders of magnitude.
     """
 
     start: Callable[[], FinalFit]
     before: float
     most: float = math.inf
+    beside: bool = False
 
 
 def race(
@@ -246,20 +242,25 @@ def race(
 ) -> list[FinalFit]:
     """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
 
-    One that can gain too little beside what others have gained does not start. Of several starts of one candidate, one
-    that is higher after a point, and promises less, is given up at once; later the better one goes on.
+    One that can gain too little beside what others have gained does not start, or stays where it starts. Of several
+    starts of one candidate, one that is higher after a point, and promises less, is given up at once; later the better
+    one goes on.
 
     Args:
         runners: the most promising first.
         finish: takes one of the best to its end.
     """
-    running, gained = list[tuple[FinalFit, float]](), 0.0
+    running, resting, gained = list[tuple[FinalFit, float]](), list[tuple[FinalFit, float]](), 0.0
     for runner in runners:
         fit = runner.start() if runner.most >= settings.promising * gained else None
-        if fit is not None and fit.good:
-            running.append((advance(fit, 1), runner.before))
-            gained = max(gained, runner.before - running[-1][0].point.cost)
-    running, resting = _not_worse(running), list[tuple[FinalFit, float]]()
+        if fit is None or not fit.good:
+            continue
+        if runner.beside and runner.before - fit.expected < settings.small * gained:
+            resting.append((fit, runner.before))
+            continue
+        running.append((advance(fit, 1), runner.before))
+        gained = max(gained, runner.before - running[-1][0].point.cost)
+    running = _not_worse(running)
     points, least = settings.heat - 1, 0.0
     while running:
         running = _best_starts([(advance(fit, points), before) for fit, before in running])

@@ -155,18 +155,21 @@ class Search:
         return self._keep(base)
 
     def _fine_enough(self, fit: FinalFit) -> FinalFit:
-        """A fit integrated so finely that the error is small beside the floor, and that finer runs promise hardly more:
-        a sharp law asks for it, whose slopes err before its signals do."""
+        """A fit integrated so finely that the error is small beside the floor, and that finer runs promise hardly more,
+        or keep hardly more: a sharp law asks for it, whose slopes err before its signals do."""
         for _ in range(self.settings.refinements if fit.good else 0):
             other = begin(fit.candidate, fit.values, fit.simulation.finer(), fit)
             if not other.good:
                 break
             floors = self.floors.with_(fit)
             hardly = max(self.settings.anew, self.settings.small * floors.potential(fit))
-            promised = other.point.cost - other.expected
-            if promised < hardly and floors.between(fit, other) < self.settings.fine:
+            is_fine = floors.between(fit, other) < self.settings.fine
+            if is_fine and other.point.cost - other.expected < hardly:
                 break
-            fit = converged(other)
+            finer = converged(other)
+            if is_fine and other.point.cost - finer.point.cost < hardly:
+                break
+            fit = finer
         return fit
 
     def _once(self, part: str, find: Callable[[], FinalFit], candidate: Candidate) -> FinalFit:
@@ -363,12 +366,13 @@ class Search:
         return rivals.gain_test(smaller, larger, gain, df, size, choices or max(self.tried, 1), self.settings)
 
     def _ordered(self, compared: list[Compared]) -> list[Compared]:
-        """By gain less penalty, one lambda for all; with what the data do not tell from each."""
+        """By gain less penalty, one lambda for all, of those that gain much; with what data do not tell from each."""
         good = [one for one in compared if one.test.gain > 0]
         if not good:
             return []
-        count = rivals.samples(good[0].fit)
-        inflated = count / float(np.median([one.test.effective_size for one in good]))
+        count, most = rivals.samples(good[0].fit), max(one.test.gain for one in good)
+        sizes = [one.test.effective_size for one in good if one.test.gain >= self.settings.promising * most]
+        inflated = count / float(np.median(sizes))
         scored = [
             replace(
                 one, test=replace(one.test, penalised=rivals.penalised(one.test.gain, one.test.df, inflated, count))

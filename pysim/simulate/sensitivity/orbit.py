@@ -216,7 +216,7 @@ def orbit_of(plan: Plan, experiment: Experiment, found: Found | None, stopped: S
         return _failed(plan, experiment, Outcome.MODEL_ERROR, found.message)
     if not found.done:
         return _the_long_way(plan, experiment, found.trouble, stopped)
-    if not plan.offer.outputs and found.number_of("correction") > _TIGHT_MISMATCH:
+    if not plan.offer.outputs and found.number_of("correction") > _TIGHT_MISMATCH < plan.mismatch:
         return _again(plan, experiment, found, stopped)
     values = found.values
     record = make_record(plan.library.model, experiment, values, Outcome.DONE, "", found.statistics())

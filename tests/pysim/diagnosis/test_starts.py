@@ -1,32 +1,29 @@
 """Which effects are refitted, and from where, on a mass with a spring."""
 
 from collections.abc import Mapping
-from pathlib import Path
+
+import pytest
 
 from pysim.diagnosis.candidate import Models
-from pysim.diagnosis.refit import FinalFit, Runner
-from pysim.diagnosis.screen import Sizes, best_of_each, screen
-from pysim.diagnosis.session import session
+from pysim.diagnosis.refit import FinalFit, Runner, race
+from pysim.diagnosis.screen import best_of_each, screen
 from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts
-from pysim.effects import read_catalogue
-from pysim.workflow.variants import Variants
-from tests.known_answers.plants import PLANTS
-from tests.pysim.diagnosis.plants import FINE, STOPS, given, measured, refitted
+from tests.pysim.diagnosis.plants import FINE, given, measured, refitted
 
 
-def runners(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = None) -> list[Runner]:
+def runners(models: Models, fit: FinalFit, *, near: bool) -> list[Runner]:
     def beside(transient: bool) -> FinalFit:
         return fit
 
-    found = screen(models, beside, FINE, sizes)
+    found = screen(models, beside, FINE)
     return Starts(beside, FINE, near, Settings()).runners(found, [], len(best_of_each(found)))
 
 
-def begun(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = None) -> Mapping[str, list[FinalFit]]:
+def begun(models: Models, fit: FinalFit, *, near: bool) -> Mapping[str, list[FinalFit]]:
     """Where each effect's refits begin."""
     starts: dict[str, list[FinalFit]] = {}
-    for runner in runners(models, fit, near=near, sizes=sizes):
+    for runner in runners(models, fit, near=near):
         start = runner.start()
         starts.setdefault(start.names[0], []).append(start)
     return starts
@@ -44,18 +41,12 @@ def test_near_the_floor_nothing_is_refitted_where_nothing_is_missing() -> None:
     assert begun(models, refitted(models), near=True) == {}
 
 
-def test_far_from_the_floor_a_limit_begins_at_the_size_that_is_nearest_the_measurements(tmp_path: Path) -> None:
-    """The model's parameters as given, its ends where they stop least."""
-    library = tmp_path / "Stops.mo"
-    library.write_text(STOPS, encoding="utf-8")
-    own = Variants("Mass.Design", (PLANTS["mass"].library, library))
-    data = measured("mass", length=4.0)
-    models = Models(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
+def test_an_effect_begins_as_good_as_off_and_only_what_promises_enough_goes_on() -> None:
+    """Friction is missing: a force that is constant promises next to nothing, and stays where it starts."""
+    models = Models(given("mass", measured("mass", {"mass.friction": {"F_c": 0.3}}), ("mass.friction", "mass.bias")))
     fit = refitted(models)
-    sizes = Sizes(limits=(0.92, 0.55, 0.2))
-    tried = {one.tried["inverse_x_m"] for one in screen(models, lambda transient: fit, FINE, sizes)}
-    starts = begun(models, fit, near=False, sizes=sizes)["stops.ends"]
-    assert len(starts) == 2
-    nearest = starts[1].values["stops.ends", "inverse_x_m"]
-    assert nearest in tried
-    assert nearest == min(tried)  # the plant has no ends: the widest limit is nearest
+    found = race(runners(models, fit, near=False), Settings())
+    friction, bias = (next(one for one in found if name in one.names) for name in ("mass.friction", "mass.bias"))
+    assert friction.values["mass.friction", "F_c"] == pytest.approx(0.3, rel=0.05)
+    assert bias.state.tried == 0
+    assert abs(bias.point.cost - fit.point.cost) < 0.01 * (fit.point.cost - friction.point.cost)
