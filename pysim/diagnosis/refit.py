@@ -242,9 +242,7 @@ def race(
 ) -> list[FinalFit]:
     """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
 
-    One that can gain too little beside what others have gained does not start, or stays where it starts. Of several
-    starts of one candidate, one that is higher after a point, and promises less, is given up at once; later the better
-    one goes on.
+    One that can gain too little beside what others have gained does not start, or stays where it starts.
 
     Args:
         runners: the most promising first.
@@ -260,10 +258,9 @@ def race(
             continue
         running.append((advance(fit, 1), runner.before))
         gained = max(gained, runner.before - running[-1][0].point.cost)
-    running = _not_worse(running)
     points, least = settings.heat - 1, 0.0
     while running:
-        running = _best_starts([(advance(fit, points), before) for fit, before in running])
+        running = [(advance(fit, points), before) for fit, before in running]
         points = settings.heat
         least = settings.promising * max(0.0, *(-_promise(one) for one in (*running, *resting)))
         going = [one for one in running if one[0].state.outcome is None and -_promise(one) >= least]
@@ -271,7 +268,7 @@ def race(
             break
         resting += [one for one in running if not any(one is other for other in going)]
         running = going
-    ranked = sorted(_best_starts([*running, *resting]), key=_promise)
+    ranked = sorted([*running, *resting], key=_promise)
     ended = [
         (finish(one[0]), one[1]) if k < settings.finalists and -_promise(one) >= least else one
         for k, one in enumerate(ranked)
@@ -282,29 +279,6 @@ def race(
 def _promise(one: tuple[FinalFit, float]) -> float:
     """Cost that a refit will end at over that of the present model, nats."""
     return one[0].expected - one[1]
-
-
-def _not_worse(running: Sequence[tuple[FinalFit, float]]) -> list[tuple[FinalFit, float]]:
-    """Without starts beside which another of the same candidate is lower and promises to end lower."""
-    return [
-        (fit, before)
-        for fit, before in running
-        if not any(
-            other.candidate.labels == fit.candidate.labels
-            and other.point.cost < fit.point.cost
-            and other.expected < fit.expected
-            for other, _ in running
-        )
-    ]
-
-
-def _best_starts(running: Sequence[tuple[FinalFit, float]]) -> list[tuple[FinalFit, float]]:
-    best: dict[tuple[str, ...], tuple[FinalFit, float]] = {}
-    for fit, before in running:
-        other = best.get(fit.candidate.labels)
-        if other is None or fit.expected < other[0].expected:
-            best[fit.candidate.labels] = fit, before
-    return list(best.values())
 
 
 def _optimiser() -> GaussNewton:

@@ -366,7 +366,8 @@ class Search:
         return rivals.gain_test(smaller, larger, gain, df, size, choices or max(self.tried, 1), self.settings)
 
     def _ordered(self, compared: list[Compared]) -> list[Compared]:
-        """By gain less penalty, one lambda for all, of those that gain much; with what data do not tell from each."""
+        """By gain less penalty, one lambda for all, of those that gain much; with what is not told from the first. Of
+        those that leave as good as nothing the one with the fewest parameters is first: more only bends its law."""
         good = [one for one in compared if one.test.gain > 0]
         if not good:
             return []
@@ -380,7 +381,11 @@ class Search:
             for one in good
         ]
         scored.sort(key=lambda one: -one.test.penalised)
-        return [replace(one, ties=self._ties(one, scored)) for one in scored[:1]] + scored[1:]
+        enough = [one for one in scored if self.is_done(one.fit)] if self.is_done(scored[0].fit) else scored[:1]
+        first = min(enough, key=lambda one: one.test.df)
+        before = [one.added for one in enough if one.test.penalised > first.test.penalised]
+        ties = tuple(dict.fromkeys((*before, *self._ties(first, scored))))
+        return [replace(first, ties=ties), *(one for one in scored if one is not first)]
 
     def _ties(self, best: Compared, others: Sequence[Compared]) -> tuple[str, ...]:
         """Names of those that the data do not tell from the best."""
