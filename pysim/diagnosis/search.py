@@ -17,7 +17,7 @@ from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, begin, begin_anywhere, converged, race
+from pysim.diagnosis.refit import FinalFit, advance, begin, begin_anywhere, converged, race
 from pysim.diagnosis.screen import Screened, best_of_each, screen, screened
 from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts, with_sensor_errors
@@ -68,7 +68,7 @@ class Step:
     Args:
         model: with what was added.
         added: what that was.
-        on_trial: whether it was not significant by itself.
+        on_trial: whether it was not significant by itself, or takes next to nothing of what could be gained.
         rivals: all that were refitted, best first.
     """
 
@@ -289,7 +289,7 @@ class Search:
             best = compared[place]
             if best.test.gain < self.settings.promising * compared[0].test.gain:
                 break
-            sure = best.test.verdict is Verdict.BETTER
+            sure = best.test.verdict is Verdict.BETTER and best.test.gain >= self.settings.small * tried.avoidable
             in_vain = 0 if sure else in_vain + 1
             gained = sum(s.test.gain for s in steps[len(steps) - in_vain + 1 :]) if in_vain > 1 else 0.0
             if in_vain > self.settings.on_trial or (not sure and self.is_done(present)):
@@ -483,18 +483,19 @@ class Search:
 
     def _refitted(self, candidate: Candidate, values: Values, present: FinalFit) -> FinalFit:
         """Refitted from where another model stands, or from the base model if that does not run; or as it is known
-        where that promises to end hardly lower."""
-        rough = converged(begin(candidate, values, self.rough, present))
-        if not rough.good:
+        where that soon promises to end hardly lower."""
+        start = begin(candidate, values, self.rough, present)
+        if not start.good:
             base = self._beside(self._fits[_key(self.models.of(()))], candidate.transient)
-            rough = converged(begin(candidate, base.values, self.rough, base))
+            start = begin(candidate, base.values, self.rough, base)
         known = self._fits.get(_key(candidate))
-        fit = begin(candidate, rough.values, self.fine, rough) if rough.good else rough
+        rough = advance(start, self.settings.heat)
         if known is not None:
             hardly = self.settings.small * max(known.point.cost - present.point.cost, 0.0)
-            if not fit.good or fit.expected > known.point.cost - hardly:
+            if not rough.good or rough.expected > known.point.cost - hardly:
                 return known
-        return converged(fit)
+        rough = converged(rough)
+        return converged(begin(candidate, rough.values, self.fine, rough)) if rough.good else rough
 
     def _keep(self, fit: FinalFit) -> FinalFit:
         key = _key(fit.candidate)
