@@ -134,6 +134,13 @@ def begun(candidate: Candidate, point: Point, simulation: Simulation, evaluate: 
     return _watched(FinalFit(candidate, _expecting(state, bounds), simulation, evaluate))
 
 
+def cost_at(candidate: Candidate, values: Values, simulation: Simulation, present: FinalFit) -> float:
+    """Of a start that goes on from the present model, without slopes; infinite where it could not be simulated."""
+    x, carried = candidate.at(values), candidate.carried(present.candidate, present.point)
+    residuals = candidate.residuals(simulation)
+    return residuals.evaluate(candidate.model, candidate.space, x, carried, jacobian=False, states=False).cost
+
+
 def again(
     candidate: Candidate, x: Array, carried: Carried, simulation: Simulation, outcome: FitOutcome | None, tried: int
 ) -> FinalFit:
@@ -242,7 +249,8 @@ def race(
 ) -> list[FinalFit]:
     """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
 
-    One that can gain too little beside what others have gained does not start, or stays where it starts.
+    One that can gain too little beside what others have gained does not start, or stays where it starts. Of several
+    starts of one candidate the one that promises more goes on.
 
     Args:
         runners: the most promising first.
@@ -260,7 +268,7 @@ def race(
         gained = max(gained, runner.before - running[-1][0].point.cost)
     points, least = settings.heat - 1, 0.0
     while running:
-        running = [(advance(fit, points), before) for fit, before in running]
+        running = _best_starts([(advance(fit, points), before) for fit, before in running])
         points = settings.heat
         least = settings.promising * max(0.0, *(-_promise(one) for one in (*running, *resting)))
         going = [one for one in running if one[0].state.outcome is None and -_promise(one) >= least]
@@ -268,7 +276,7 @@ def race(
             break
         resting += [one for one in running if not any(one is other for other in going)]
         running = going
-    ranked = sorted([*running, *resting], key=_promise)
+    ranked = sorted(_best_starts([*running, *resting]), key=_promise)
     ended = [
         (finish(one[0]), one[1]) if k < settings.finalists and -_promise(one) >= least else one
         for k, one in enumerate(ranked)
@@ -279,6 +287,15 @@ def race(
 def _promise(one: tuple[FinalFit, float]) -> float:
     """Cost that a refit will end at over that of the present model, nats."""
     return one[0].expected - one[1]
+
+
+def _best_starts(running: Sequence[tuple[FinalFit, float]]) -> list[tuple[FinalFit, float]]:
+    best: dict[tuple[str, ...], tuple[FinalFit, float]] = {}
+    for fit, before in running:
+        other = best.get(fit.candidate.labels)
+        if other is None or fit.expected < other[0].expected:
+            best[fit.candidate.labels] = fit, before
+    return list(best.values())
 
 
 def _optimiser() -> GaussNewton:

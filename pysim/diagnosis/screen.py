@@ -169,6 +169,15 @@ def _screened(
         milder = point.cost, gain
 
 
+def own_values(one: Screened) -> Values:
+    """A start at the model's own parameters, the new effect at its usual size; a limit as it was screened."""
+    usual = {
+        p.name: one.values[one.effect.name, p.name] if p.inverse else _within(p, p.nominal)
+        for p in one.effect.strengths
+    }
+    return {(one.effect.name, name): value for name, value in usual.items()}
+
+
 def with_effect(values: Values, effect: Effect, own: Mapping[str, float]) -> dict[Key, float]:
     """Parameters of a model and of an effect that is new in it."""
     found: dict[Key, float] = dict(values)

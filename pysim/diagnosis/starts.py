@@ -9,8 +9,8 @@ from functools import partial
 
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate, Key, Models, Values
-from pysim.diagnosis.refit import FinalFit, Runner, begin, begun, exact
-from pysim.diagnosis.screen import Screened, best_of_each
+from pysim.diagnosis.refit import FinalFit, Runner, begin, begun, cost_at, exact
+from pysim.diagnosis.screen import Screened, best_of_each, own_values
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Nuisance, NuisanceKind, Simulation
 from pysim.types import Record
@@ -58,8 +58,8 @@ class Starts:
         screened = best_of_each(sizes)
         found = [self._of_effect(one) for one in screened]
         found += [self._of_sensor(fit) for fit in sensors]
-        if not self.near:
-            return found
+        if not self.near:  # the model's parameters may be those of a wrong optimum
+            return found + self._nearest(sizes)
         lefts = [rivals.of(self.beside(one.candidate.transient)) for one in screened]
         worth = [
             (len(one.effect.parameters), rivals.effective(one.leaves(left), one.change))
@@ -73,6 +73,18 @@ class Starts:
         ]
         return [one for one, chance in zip(found, chances, strict=True) if chance < self.settings.false_alarm]
 
+    def _nearest(self, sizes: Sequence[Screened]) -> list[Runner]:
+        """Effects that do not begin off, at the size nearest the measurements at the model's own parameters."""
+        best: dict[str, tuple[float, Candidate, Values]] = {}
+        for one in sizes:
+            name, candidate, values = one.effect.name, one.candidate, own_values(one)
+            if _begins_off(one) or (name in best and best[name][2] == values):
+                continue
+            cost = cost_at(candidate, values, self.simulation, self.beside(candidate.transient))
+            if math.isfinite(cost) and (name not in best or cost < best[name][0]):
+                best[name] = cost, candidate, values
+        return [self._runner(candidate, values, math.inf) for _, candidate, values in best.values()]
+
     def _most(self, gain: float) -> float:
         """Nats that a refit can gain at most."""
         return self.settings.first_order_error * gain if self.near else math.inf
@@ -85,7 +97,7 @@ class Starts:
         """As good as off, beside the present model, whose slopes there tell how far to go; at the size that looked best
         where off has no slopes."""
         effect, most = one.effect, self._most(one.gain)
-        if effect.limit or effect.bypass or one.candidate.has_events:
+        if not _begins_off(one):
             return self._runner(one.candidate, one.values, most)
         off: dict[Key, float] = {(effect.name, p.name): p.off or 0.0 for p in effect.strengths}
         least = {key: value + self.settings.off * (one.values[key] - value) for key, value in off.items()}
@@ -96,6 +108,11 @@ class Starts:
         here = self.here(fit.candidate.transient)
         itself = begun(here.candidate, here.point, here.simulation, here.evaluate)
         return Runner(lambda: fit, here.point.cost, self._most(itself.expected - fit.expected), beside=True)
+
+
+def _begins_off(one: Screened) -> bool:
+    """Whether an effect has slopes where it is as good as off."""
+    return not (one.effect.limit or one.effect.bypass or one.candidate.has_events)
 
 
 def with_sensor_errors(present: FinalFit, models: Models) -> list[FinalFit]:

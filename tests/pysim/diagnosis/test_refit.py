@@ -63,6 +63,14 @@ def test_those_that_promise_too_little_are_left_where_they_are() -> None:
     assert tried["mass.stick_slip"] > 1
 
 
+def test_of_two_starts_of_one_candidate_the_better_one_is_kept() -> None:
+    bad = start("mass.friction", 20.0, {"k": 150.0})
+    good = start("mass.friction")
+    for order in ((good, bad), (bad, good)):
+        (found,) = raced(*order)
+        assert found.point.cost == pytest.approx(converged(good, FINE).point.cost, abs=0.1)
+
+
 def test_what_cannot_be_simulated_does_not_run() -> None:
     nowhere = replace(start("mass.drag"), state=State(failed_point(base().point.x, Failure("", Outcome.DONE, ""))))
     assert not nowhere.good
