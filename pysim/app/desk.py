@@ -14,6 +14,7 @@ from nicegui import run
 from pysim.app.answers import Answer, Answers
 from pysim.app.history import History
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
+from pysim.app.live import news
 from pysim.app.project import Project
 from pysim.app.records import raw_of
 from pysim.app.upload import Batch, Limits
@@ -97,6 +98,7 @@ class Desk:
         """Something that pages show is other than before."""
         self.version += 1
         self.beat += 1
+        news.emit()
 
     def redo(self, words: Sequence[str]) -> str:
         """The line to type in the project's folder, of words of the command line."""
@@ -183,20 +185,18 @@ class Desk:
         self.history.look()
         self.beat += len(self.history.past) != steps
         before = self.runner.running
-        if not self.runner.poll():
-            return
-        self.beat += 1
+        self.beat += self.runner.poll()
         if before is not None and self.runner.running is None:
             self.last = read_job(self.project.results(before.work.name))
-            self._ended()
             self.changed()
+            self._ended()
+        news.emit()  # a clock goes on, too
 
     def _ended(self) -> None:
         """A finished diagnosis or addition says what the model has from now on."""
         job = self.last
         if job is None or job.state != DONE:
             return
-        self.changed()
         answer = next((one for one in self.answers.all if one.job.work.name == job.work.name), None)
         if answer is not None and (job.work.name == "diagnose" or job.work.words[0] == "add"):
             self.project.change(added=answer.added)
@@ -210,7 +210,8 @@ class Desk:
         if self.taking:
             raise BadInput("a drop is being taken over; try again in a moment")
         self.last = None
-        self.runner.start(work)
+        loop = asyncio.get_running_loop()
+        self.runner.start(work).add_done_callback(lambda _: loop.call_soon_threadsafe(self.tick))  # at once
         deleted = self.project.settings().deleted
         if work.name in deleted:  # it is made anew
             self.project.change(deleted=tuple(one for one in deleted if one != work.name))

@@ -12,6 +12,7 @@ from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
 from pysim.app.flowchart import CONFIG, flowchart
+from pysim.app.live import news
 from pysim.app.upload import Limits
 from pysim.io import shown_value
 
@@ -189,6 +190,7 @@ class _Field(Element):
             self._props["value"] = given
             self._props["stamp"] += 1
             self.update()
+            news.emit()
             put(given)
 
         self._props["value"], self._props["stamp"] = value, 0
@@ -263,7 +265,12 @@ def button(words: str, action: Callable[[], Any], kind: str = "", *, off: str = 
     if off:
         element._props["disabled"] = True
         element._props["title"] = off
-    return element.on("click", lambda: action())
+
+    def press() -> Any:
+        news.emit()
+        return action()
+
+    return element.on("click", press)
 
 
 def head(title: str, lead: str = "") -> None:
