@@ -96,6 +96,7 @@ class Desk:
 
     def changed(self) -> None:
         """Something that pages show is other than before."""
+        self.history.look()  # now: what is chosen next is another step
         self.version += 1
         self.beat += 1
         news.emit()
@@ -272,15 +273,17 @@ class Desk:
         self.project.change(**settings, added=())
         self.changed()
 
-    def set_values(self, values: Mapping[str, float]) -> None:
+    def set_values(self, values: Mapping[str, float], **settings: Any) -> None:
         """Give parameters other values than the model has.
 
+        Args:
+            settings: to choose otherwise at once.
         Raises:
             BadInput: work is running.
         """
         self._free_to_change()
         self.project.set_values(values)
-        self.project.change(added=())
+        self.project.change(**settings, added=())
         self.changed()
 
     def keep(self, found: Mapping[str, float]) -> None:

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 import nicegui.elements.plotly  # registers the library that chart.js loads
-from nicegui import ui
+from nicegui import json, ui
 from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
@@ -33,6 +33,8 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         height: px.
     """
 
+    follows = True
+
     def __init__(
         self,
         figure: Mapping[str, Any],
@@ -44,8 +46,8 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         height: int = 360,
     ) -> None:
         super().__init__()
-        self._props["figure"], self._props["label"], self._props["series"] = figure, label, series
-        self._props["stamp"] = 0
+        self._props["series"] = series
+        self.show(figure, label)
         self.style(f"height: {height}px")
         if on_pick is not None:
             self.on("pick", lambda event: on_pick(event.args))
@@ -54,8 +56,8 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
 
     def show(self, figure: Mapping[str, Any], label: str) -> None:
         """Another figure in its place."""
-        self._props["figure"], self._props["label"] = figure, label
-        self._props["stamp"] += 1
+        self._props["figure"] = json.dumps(figure)  # NiceGUI would look at every number of it
+        self._props["label"] = label
         self.update()
 
     def follow(self, ys: Sequence[Sequence[float]], traces: Sequence[int], number: int) -> None:

@@ -117,6 +117,7 @@ def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
         tailwind=False,
         show_welcome_message=False,
         reconnect_timeout=60.0,
+        ws_per_message_deflate=host not in _LOOPBACK,  # it costs more than it saves on one machine
     )
 
 

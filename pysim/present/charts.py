@@ -70,8 +70,9 @@ def chart(data: Sequence[Mapping[str, Any]], **layout: Any) -> Chart:
 
 def axis(title: str = "", **more: Any) -> dict[str, Any]:
     """A quiet axis."""
-    look = {"gridcolor": "@grid", "linecolor": "@line", "tickcolor": "@line", "zeroline": False, "automargin": True}
-    return {**look, "title": {"text": title, "standoff": 8, "font": {"size": 12.5}}, **more}
+    look = {"gridcolor": "@grid", "linecolor": "@line", "tickcolor": "@line", "zeroline": False}
+    room = {"automargin": True, "ticklabeloverflow": "allow"}  # looking for labels out of it takes a third of a drawing
+    return {**look, **room, "title": {"text": title, "standoff": 8, "font": {"size": 12.5}}, **more}
 
 
 def step_axis(names: Sequence[str]) -> dict[str, Any]:

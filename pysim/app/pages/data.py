@@ -164,6 +164,7 @@ def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = Fa
         edit(content)
         change_description(desk.project.description, content, read=not safe)
         desk.project.change(added=())
+        desk.history.look()
 
     attempt(change)
     background_tasks.create(desk.read_data())

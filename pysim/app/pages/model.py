@@ -109,8 +109,7 @@ class _Follows:
             change(self._desk, lambda content: begin_logs(content, words), safe=True)
 
     def _reset(self) -> None:
-        self._desk.change(bounds=())
-        self._desk.set_values({})
+        self._desk.set_values({}, bounds=())
 
     def _bound(self, name: str, end: str, value: float) -> None:
         """Another end of the slider, and of what a fit may come to."""

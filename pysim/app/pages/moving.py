@@ -12,13 +12,26 @@ from pysim.app.records import followed_overlay
 from pysim.present.diagnosis.figures.search import left_over, search_chart
 
 
+_QUICK = 1.0  # s; drawing a search that takes less would only hold it up
+
+
 def moving(desk: Desk) -> None:
     """The search that runs, or that was stopped; nothing where there is none."""
-    live(lambda: desk.version, lambda: None if _job(desk) is None else _Moving(desk), "gap")
+    live(lambda: (desk.version, _slow(desk.runner.running)), lambda: _build(desk), "gap")
+
+
+def _slow(job: Job | None) -> bool:
+    return job is not None and bool(job.trials) and job.seconds > _QUICK
 
 
 def _job(desk: Desk) -> Job | None:
     return desk.runner.running or desk.unfinished()
+
+
+def _build(desk: Desk) -> None:
+    running = desk.runner.running
+    if _slow(running) or (running is None and (job := desk.unfinished()) and job.trials):
+        _Moving(desk)
 
 
 class _Moving:
@@ -26,7 +39,7 @@ class _Moving:
 
     def __init__(self, desk: Desk) -> None:
         self._desk = desk
-        with card() as self._place:
+        with card():
             self._head = text("h2", "")
             self._words = text("p", "", "statement").props('aria-live="polite"')
             self._chart = Chart(search_chart(()), "Residual over noise, point by point", height=300)
@@ -40,7 +53,6 @@ class _Moving:
     def show(self) -> None:
         """What is known now."""
         job = _job(self._desk)
-        self._place.set_visibility(job is not None and bool(job.trials))
         if job is None or not job.trials:
             return
         ranked = left_over(job.trials)
