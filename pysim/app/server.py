@@ -246,7 +246,10 @@ def _routes(desk: Desk) -> None:
             return PlainTextResponse(str(disk_trouble(error)), 507)
         finally:
             desk.taking = False
-        await (desk.read_model() if adopted.kind == "model" else desk.read_data())
+        if adopted.kind != "model":
+            await desk.read_data()
+        if adopted.model or adopted.libraries:
+            await desk.read_model()
         return PlainTextResponse(adopted.text)
 
     @app.get("/series")

@@ -16,7 +16,7 @@ from pysim.app.jobs import FAILED, STOPPED, Work
 from pysim.app.parts import Chart, Entry, box, button, note, say, text
 from pysim.app.records import MOST, Overlay
 from pysim.app.worker import Ended
-from pysim.types import BadInput
+from pysim.types import UNITS, BadInput, conversion
 
 
 def attempt(action: Callable[[], object]) -> bool:
@@ -65,7 +65,23 @@ def busy(desk: Desk) -> str:
         return "Fill the cells that are empty, or cut them out, on the page Prepare"
     if not desk.project.settings().model:
         return "Name a model first"
+    if unfit(desk):
+        return "Let every signal be a variable of the model, or leave it out, on the page Data"
     return "Wait until the model is built" if desk.model_busy else desk.model_trouble and "Name another model"
+
+
+def unfit(desk: Desk) -> list[str]:
+    """What keeps signals from being variables of the model."""
+    variables = {} if desk.model is None else {str(one[0]): str(one[2]) for one in desk.model["variables"]}
+    units, found = {*variables.values()} - {"1", ""}, []  # a model without any counts in those of the data
+    for signal in desk.check.dataset.signals if desk.check and variables else ():
+        name, own, unit = signal.variable, variables.get(signal.variable), signal.unit
+        if own is None:
+            found.append(f"The model has no variable {name}; choose another one for {signal.name}, or leave it out.")
+        elif units and own in UNITS and conversion(unit, own) is None:
+            cure = f"choose {own} as its unit, and write as its factor how many {own} are 1 {unit}"
+            found.append(f"{signal.name} is in {unit}, {name} of the model in {own}; {cure}.")
+    return found
 
 
 def ended(desk: Desk) -> None:

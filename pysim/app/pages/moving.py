@@ -11,7 +11,6 @@ from pysim.app.parts import Chart, Table, box, card, text
 from pysim.app.records import followed_overlay
 from pysim.present.diagnosis.figures.search import left_over, search_chart
 
-
 _QUICK = 1.0  # s; drawing a search that takes less would only hold it up
 
 
