@@ -23,6 +23,7 @@ Array = NDArray[np.float64]
 Given = Sequence[Any]  # lowest, highest, usual, unit, as a user gives them
 _NAME = "own.law"  # of a law that has no name yet, in messages
 _WIDE = 10.0  # a range goes that far beyond the usual value, or that far below it
+_GUESSED = 1000.0  # the same, of a value that no curve gives
 # Where the search for values that follow a curve begins: shares of what their unit makes of its width and its height.
 _SHARES = (0.01, 0.03, 0.1, 0.3, 1.0)
 _MOST = 3  # parameters of which all combinations of shares are tried
@@ -109,7 +110,8 @@ def typed_law(
     free = [name for name in parameters if name not in values]
     values |= dict.fromkeys(free, 1.0) if curve is None else curve.followed(free, values, units)
     linear = _linear(read, place.slot, values)
-    found = {name: _usual_range(values[name], units.get(name) or "1", name in linear) for name in parameters}
+    wide = _GUESSED if curve is None else _WIDE
+    found = {name: _usual_range(values[name], units.get(name) or "1", name in linear, wide) for name in parameters}
     return TypedLaw({**found, **kept}, None if curve is None else curve.beside(values))
 
 
@@ -119,10 +121,10 @@ def _names(tree: Any) -> Any:
     return names_in(tree)
 
 
-def _usual_range(value: float, unit: str, is_strength: bool) -> Range:
+def _usual_range(value: float, unit: str, is_strength: bool, wide: float) -> Range:
     """A strength may be nothing, and on the other side too; what shapes a law keeps its sign."""
-    low, high = sorted((0.0 if is_strength else value / _WIDE, _WIDE * value))
-    return Range(*((-_WIDE, _WIDE) if low == high else (low, high)), value, unit)
+    low, high = sorted((0.0 if is_strength else value / wide, wide * value))
+    return Range(*((-wide, wide) if low == high else (low, high)), value, unit)
 
 
 @dataclass(frozen=True)

@@ -116,8 +116,9 @@ def _below(desk: Desk, chosen: dict[str, str], laws: dict[str, Writing]) -> None
     if one is None and name not in slots:
         return
     with card(f"What {name} would need" if one else name):
-        if one and one["formula"]:
-            text("p", str(one["formula"]), "statement")
+        answer = desk.answers.newest("missing")
+        if one and (words := answer.data["reason"] if answer and name == next(iter(found)) else one["formula"]):
+            text("p", str(words), "statement")
         about = str(slots[name]["about"]) if name in slots else ""
         if about:
             text("p", f"{about}.", "small")
@@ -125,7 +126,6 @@ def _below(desk: Desk, chosen: dict[str, str], laws: dict[str, Writing]) -> None
             text("p", "No law was learned here: other places explain more.", "note")
         laws.setdefault(name, Writing(desk, name)).show(one)
     _effects(desk, name)
-    answer = desk.answers.newest("missing")
     for line in answer.data["notes"] if answer is not None else ():
         note(str(line["text"]))
 

@@ -42,7 +42,10 @@ class Writing:
         is_new, self._learned = learned != self._learned, learned
         self._chart = None
         if learned is not None:
-            explains = f"Over {learned['depends_on']} it explains {100 * learned['share']:.1f} % of the misfit."
+            times = f" times {learned['factor']}" if learned["factor"] else ""
+            explains = (
+                f"A curve over {learned['depends_on']}{times} explains {100 * learned['share']:.1f} % of the misfit."
+            )
             text("p", f"{explains} The band holds 95 percent.", "small")
             if len(learned["shape"]["argument"]) > 1:
                 self._chart = Chart(*self._figure(), height=280)
@@ -71,7 +74,7 @@ class Writing:
         text("p", f"It gives {gives}. It may use {words}. Any other name becomes a parameter.", "small")
         props = "rows=2 spellcheck=false autocomplete=off"
         field = Entry(f"law for {slot.name}", self._law, self._typed, props, tag="textarea", each=True)
-        field.classes("field mono")._props["placeholder"] = f"-F_c*tanh({[*slot.sees, 'time'][-1]}/v_0)"
+        field.classes("field mono")._props["placeholder"] = f"-F_c*tanh({(slot.sees or ('time',))[-1]}/v_0)"
         live(lambda: self._version, self._rows, "tight")
 
     def _typed(self, law: str) -> None:
