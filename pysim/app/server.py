@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+import logging
 import shutil
 import socket
 import tempfile
@@ -23,6 +24,7 @@ from pysim.app.guard import Guard, host_names
 from pysim.app.jobs import Runner, settle
 from pysim.app.lock import held
 from pysim.app.notebook import notebook
+from pysim.app.pages.common import Refusals
 from pysim.app.pages.shell import shell
 from pysim.app.project import Project
 from pysim.app.recent import remember
@@ -104,6 +106,7 @@ def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
     app.timer(_TICK, desk.tick)
     app.on_startup(lambda: _announce(words, host, port, address if show else ""))
     app.on_startup(desk.read)
+    logging.getLogger("nicegui").addFilter(Refusals())
     app.on_shutdown(lambda: desk.runner.close())  # of the project that is shown then
     ui.run(
         root=lambda: shell(desk),

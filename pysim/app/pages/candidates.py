@@ -10,7 +10,7 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.live import live
-from pysim.app.pages.common import attempt, busy, ended, nothing, played, start
+from pysim.app.pages.common import busy, ended, nothing, played, start
 from pysim.app.pages.moving import moving
 from pysim.app.parts import box, button, card, curve, head, text
 
@@ -135,5 +135,5 @@ def _gain(row: Mapping[str, Any], top: float) -> None:
 
 
 def _try(desk: Desk, name: str) -> None:
-    if attempt(lambda: desk.add(name)):
-        ui.navigate.to("/add")
+    desk.add(name)
+    ui.navigate.to("/add")

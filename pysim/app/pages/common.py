@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+import logging
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 from urllib.parse import quote
@@ -19,34 +20,25 @@ from pysim.app.worker import Ended
 from pysim.types import UNITS, BadInput, conversion
 
 
-def attempt(action: Callable[[], object]) -> bool:
-    """Do what a button says; what cannot be is said in a sentence."""
-    try:
-        action()
-    except (BadInput, OSError) as error:
-        _refused(error)
-        return False
-    return True
+def refused(error: Exception) -> None:
+    """Say what cannot be done, whatever asked for it."""
+    if isinstance(error, BadInput | OSError | Ended):
+        told = disk_trouble(error) if isinstance(error, OSError) else error
+        say(str(told) or "the process that did it broke down; press again", bad=True)
 
 
-async def attempted(work: Awaitable[object]) -> bool:
-    """The same, of what takes a while."""
-    try:
-        await work
-    except (BadInput, OSError, Ended) as error:
-        _refused(error)
-        return False
-    return True
+class Refusals(logging.Filter):
+    """Lets none of these into the log: a user was told."""
 
-
-def _refused(error: Exception) -> None:
-    told = disk_trouble(error) if isinstance(error, OSError) else error
-    say(str(told) or "the process that did it broke down; press again", bad=True)
+    def filter(self, record: logging.LogRecord) -> bool:
+        """Whether it is written."""
+        return not (record.exc_info and isinstance(record.exc_info[1], BadInput | Ended))
 
 
 def start(desk: Desk, work: Callable[[], Work], *, then: str = "") -> None:
     """Start a piece of work, and go to a page."""
-    if attempt(lambda: desk.start(work())) and then:
+    desk.start(work())
+    if then:
         ui.navigate.to(then)
 
 
@@ -102,8 +94,8 @@ def ended(desk: Desk) -> None:
             with box("row"):
                 if (best := job.best) is not None:
                     words = f"Keep its best values ({best['error']:.3g} × noise)"
-                    button(words, lambda: attempt(lambda: desk.keep(best["values"])), "small", off=busy(desk))
-                button("Go on", lambda: attempt(lambda: desk.start(job.work)), "small", off=busy(desk))
+                    button(words, lambda: desk.keep(best["values"]), "small", off=busy(desk))
+                button("Go on", lambda: desk.start(job.work), "small", off=busy(desk))
 
 
 def doubts(answer: Answer) -> None:

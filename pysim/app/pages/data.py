@@ -13,7 +13,7 @@ from pysim.app.description import change_description, hold_out, leave_column_out
 from pysim.app.desk import Desk, Loaded
 from pysim.app.live import live
 from pysim.app.pages.bare import describe_form
-from pysim.app.pages.common import amount, attempt, busy, ended, record_chart, start, unfit
+from pysim.app.pages.common import amount, busy, ended, record_chart, start, unfit
 from pysim.app.pages.start import examples, projects
 from pysim.app.parts import Choice, Drop, Entry, Table, box, button, card, head, note, quantity, say, text
 from pysim.app.records import measured_overlay
@@ -118,9 +118,9 @@ def _model(desk: Desk, named: dict[str, str]) -> None:
 
 def _use(desk: Desk, named: dict[str, str], name: str) -> None:
     project, name = desk.project, named.get("name", name)
-    if attempt(lambda: project.use_model(project.model_name(name), project.settings().libraries)):
-        named.clear()
-        background_tasks.create(desk.read_model())
+    project.use_model(project.model_name(name), project.settings().libraries)
+    named.clear()
+    background_tasks.create(desk.read_model())
 
 
 def _data(desk: Desk) -> None:
@@ -152,13 +152,14 @@ def _refused(desk: Desk, loaded: Loaded) -> None:
 
 
 def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = False) -> None:
-    """Edit the description; what is refused is said, and nothing is changed.
+    """Edit the description; where that is refused, nothing is changed.
 
     Args:
         safe: whether the edit cannot make it one that is refused, so that nothing has to be read to know.
+    Raises:
+        BadInput: work is running, or what is wrong with it.
     """
-
-    def change() -> None:
+    try:
         if desk.runner.running is not None:
             raise BadInput("wait until the running work has ended, or stop it")
         content = read_description(desk.project.description)
@@ -166,9 +167,8 @@ def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = Fa
         change_description(desk.project.description, content, read=not safe)
         desk.project.change(added=())
         desk.history.look()
-
-    attempt(change)
-    background_tasks.create(desk.read_data())
+    finally:
+        background_tasks.create(desk.read_data())  # what was typed is as it was, where it was refused
 
 
 def _described(desk: Desk) -> int:
@@ -268,8 +268,8 @@ def _earlier(desk: Desk) -> None:
 
 
 def _bring_back(desk: Desk, folder: Path) -> None:
-    if attempt(lambda: desk.bring_back(folder)):
-        background_tasks.create(desk.read_data())
+    desk.bring_back(folder)
+    background_tasks.create(desk.read_data())
 
 
 def _log_number(check: DataCheck, row: int) -> int | None:

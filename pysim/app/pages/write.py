@@ -10,7 +10,7 @@ from nicegui import background_tasks, run, ui
 
 from pysim.app.desk import Desk
 from pysim.app.live import live, news
-from pysim.app.pages.common import amount, attempted, busy
+from pysim.app.pages.common import amount, busy
 from pysim.app.parts import Chart, Entry, box, button, text
 from pysim.present.diagnosis.figures.law import law_chart
 from pysim.types import BadInput
@@ -139,5 +139,5 @@ class Writing:
         self._typed(self._law)
 
     async def _add(self) -> None:
-        if await attempted(self._desk.add_law(self._name, self._place, self._law, self._ranges)):
-            ui.navigate.to("/add")
+        await self._desk.add_law(self._name, self._place, self._law, self._ranges)
+        ui.navigate.to("/add")
