@@ -23,7 +23,7 @@ from pysim.identify.data_check import DataCheck, FindingCode, check_dataset
 from pysim.io import read_described, write_file
 from pysim.io.prepare import prepared
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
-from pysim.workflow import LawPlace, class_name_of, command_line, effect_class
+from pysim.workflow import LawPlace, class_name_of, effect_class
 from pysim.workflow.own_law import Range
 
 _BUILD_LIMIT = 1200.0  # s: the 900 that fmu_build.pack.compiler grants the first compilation, and more than any takes
@@ -101,10 +101,6 @@ class Desk:
         self.beat += 1
         news.emit()
 
-    def redo(self, words: Sequence[str]) -> str:
-        """The line to type in the project's folder, of words of the command line."""
-        return command_line(words, self.project.folder)
-
     def open(self, folder: Path, *, tasks: str = TASKS) -> None:
         """Show another project from now on; nothing of it is read yet.
 
@@ -167,11 +163,6 @@ class Desk:
     def check(self) -> DataCheck | None:
         """What the data set holds; None where there is none that can be read."""
         return self.loaded.check if self.loaded else None
-
-    @property
-    def sketches(self) -> dict[str, Any]:
-        """Of the laws of the effects that fit."""
-        return {str(one["name"]): one["sketch"] for one in (self.model or {}).get("effects", [])}
 
     @property
     def answers(self) -> Answers:
@@ -336,11 +327,6 @@ class Desk:
         """Call the model with some effects otherwise; "" takes its name from it."""
         names = {**self.project.settings().named, "+".join(added): " ".join(name.split())}
         self.project.change(names=tuple(f"{key}={one}" for key, one in names.items() if one))
-        self.changed()
-
-    def undo(self) -> None:
-        """Without the last effect."""
-        self.project.change(added=self.project.settings().added[:-1])
         self.changed()
 
     async def turn_back(self, step: Callable[[], None]) -> None:

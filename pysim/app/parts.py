@@ -128,16 +128,6 @@ class Table(Element, component=str(_STATIC / "table.js")):
         if on_tick is not None:
             self.on("tick", lambda event: on_tick(int(event.args["row"]), bool(event.args["on"])))
 
-    def show(self, rows: Sequence[Sequence[Any]]) -> None:
-        """Other rows."""
-        self._props["rows"] = [list(row) for row in rows]
-        self.update()
-
-    def pick(self, row: int) -> None:
-        """Mark a row."""
-        self._props["picked"] = row
-        self.update()
-
 
 def quantity(value: float | None, unit: str) -> dict[str, Any] | str:
     """A cell of a table, with its unit; empty where there is no value.
@@ -256,14 +246,17 @@ def box(kind: str, tag: str = "div") -> Element:
     return ui.element(tag).classes(kind)
 
 
-def button(words: str, action: Callable[[], Any], kind: str = "", *, off: str = "") -> TextElement:
+def button(words: str, action: Callable[[], Any], kind: str = "", *, off: str = "", label: str = "") -> TextElement:
     """A button.
 
     Args:
         kind: "main" for the one thing to do next, "quiet", or "".
         off: why it cannot be pressed now; shown beside the pointer.
+        label: what it does, where its words alone do not say that.
     """
     element = text("button", words, f"button {kind}").props("type=button")
+    if label:
+        element._props["aria-label"] = label
     if off:
         element._props["disabled"] = True
         element._props["title"] = off

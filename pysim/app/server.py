@@ -24,7 +24,6 @@ from pysim.app.guard import Guard, host_names
 from pysim.app.jobs import Runner, settle
 from pysim.app.lock import held
 from pysim.app.notebook import notebook
-from pysim.app.pages.common import Refusals
 from pysim.app.pages.shell import shell
 from pysim.app.project import Project
 from pysim.app.recent import remember
@@ -106,7 +105,7 @@ def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
     app.timer(_TICK, desk.tick)
     app.on_startup(lambda: _announce(words, host, port, address if show else ""))
     app.on_startup(desk.read)
-    logging.getLogger("nicegui").addFilter(Refusals())
+    logging.getLogger("nicegui").addFilter(lambda one: not (one.exc_info and isinstance(one.exc_info[1], BadInput)))
     app.on_shutdown(lambda: desk.runner.close())  # of the project that is shown then
     ui.run(
         root=lambda: shell(desk),

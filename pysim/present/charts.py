@@ -69,9 +69,9 @@ def chart(data: Sequence[Mapping[str, Any]], **layout: Any) -> Chart:
 
 
 def axis(title: str = "", **more: Any) -> dict[str, Any]:
-    """A quiet axis."""
+    """A quiet axis; to look for labels that have no room would take a third of a drawing."""
     look = {"gridcolor": "@grid", "linecolor": "@line", "tickcolor": "@line", "zeroline": False}
-    room = {"automargin": True, "ticklabeloverflow": "allow"}  # looking for labels out of it takes a third of a drawing
+    room = {"automargin": True, "ticklabeloverflow": "allow"}
     return {**look, **room, "title": {"text": title, "standoff": 8, "font": {"size": 12.5}}, **more}
 
 

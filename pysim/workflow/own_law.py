@@ -23,7 +23,6 @@ Array = NDArray[np.float64]
 Given = Sequence[Any]  # lowest, highest, usual, unit, as a user gives them
 _NAME = "own.law"  # of a law that has no name yet, in messages
 _WIDE = 10.0  # a range goes that far beyond the usual value, or that far below it
-_GUESSED = 1000.0  # the same, of a value that no curve gives
 # Where the search for values that follow a curve begins: shares of what their unit makes of its width and its height.
 _SHARES = (0.01, 0.03, 0.1, 0.3, 1.0)
 _MOST = 3  # parameters of which all combinations of shares are tried
@@ -93,13 +92,14 @@ def typed_law(
     Raises:
         LawRefused: what is wrong, and where.
     """
+    from fmu_build.text.expressions import names_in
     from pysim.effects import law_class, law_equations, parameter_units
     from pysim.effects.law import Law
 
     equations = law_equations(_NAME, law, place.slot)
     read, chosen = Law(dict(equations)), {name: Range(*own) for name, own in (ranges or {}).items()}
     units = parameter_units(equations, {**place.units, **{name: own.unit for name, own in chosen.items() if own.unit}})
-    named = dict.fromkeys(name for _, tree in equations for name in _names(tree))
+    named = dict.fromkeys(name for _, tree in equations for name in names_in(tree))
     parameters = [name for name in named if name not in place.units and name not in read.values]
     units |= {name: own.unit for name, own in chosen.items() if name in parameters and own.unit}
     kept = {name: own for name, own in chosen.items() if name in parameters}
@@ -110,15 +110,9 @@ def typed_law(
     free = [name for name in parameters if name not in values]
     values |= dict.fromkeys(free, 1.0) if curve is None else curve.followed(free, values, units)
     linear = _linear(read, place.slot, values)
-    wide = _GUESSED if curve is None else _WIDE
+    wide = _WIDE**3 if curve is None else _WIDE  # a guess may be far off
     found = {name: _usual_range(values[name], units.get(name) or "1", name in linear, wide) for name in parameters}
     return TypedLaw({**found, **kept}, None if curve is None else curve.beside(values))
-
-
-def _names(tree: Any) -> Any:
-    from fmu_build.text.expressions import names_in
-
-    return names_in(tree)
 
 
 def _usual_range(value: float, unit: str, is_strength: bool, wide: float) -> Range:

@@ -53,7 +53,7 @@ def _chain(desk: Desk, added: Sequence[str]) -> None:
                     text("span", "→", "arrow").props('aria-hidden="true"')
                 text("span", words, "chip")
         if added:
-            button(f"Undo {added[-1]}", desk.undo, "small", off=busy(desk))
+            button(f"Undo {added[-1]}", partial(desk.choose, added[:-1]), "small", off=busy(desk))
 
 
 def _below(desk: Desk) -> None:
@@ -94,6 +94,7 @@ def _branches(desk: Desk) -> None:
         Chart(figure, f"Error over noise of {len(found)} branches", height=300)
         with box("tight"):
             for letter, (added, one) in zip(ascii_uppercase, found.items(), strict=False):
+                all_, off = " + ".join(added), busy(desk)
                 with box("row").mark(*added):
                     rename, props = partial(desk.name, added), f'type=text placeholder="{letter}"'
                     field = Entry(f"name of branch {letter}", names[added], rename, props)
@@ -103,10 +104,8 @@ def _branches(desk: Desk) -> None:
                     if added == now:
                         text("span", "shown", "chip good")
                     else:
-                        press = button("Show", partial(desk.choose, added), "small", off=busy(desk))
-                        press._props["aria-label"] = f"show {' + '.join(added)}"
-                    press = button("Delete", partial(desk.delete, one), "small quiet", off=busy(desk))
-                    press._props["aria-label"] = f"delete {' + '.join(added)}"
+                        button("Show", partial(desk.choose, added), "small", off=off, label=f"show {all_}")
+                    button("Delete", partial(desk.delete, one), "small quiet", off=off, label=f"delete {all_}")
 
 
 def _criteria(answer: Answer, added: Sequence[str]) -> None:

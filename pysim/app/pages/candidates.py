@@ -87,7 +87,7 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
         .mark(name)
     ):
         text("span", str(rank) if "score" in row else "·", "rank")
-        curve(desk.sketches.get(name))
+        curve(known and known["sketch"])
         with box("tight"):
             _named(known or {"name": name}, tied=tied)
         _gain(row, top)
@@ -96,7 +96,7 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
 
 def effect_row(desk: Desk, effect: Mapping[str, Any]) -> None:
     """An effect in three cells: sketch, name with law, and what tries it."""
-    curve(desk.sketches.get(str(effect["name"])))
+    curve(effect["sketch"])
     with box("tight candidate-words"):
         _named(effect)
     _trying(desk, str(effect["name"]))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import logging
 from collections.abc import Callable
 from functools import partial
 from typing import Any
@@ -25,14 +24,6 @@ def refused(error: Exception) -> None:
     if isinstance(error, BadInput | OSError | Ended):
         told = disk_trouble(error) if isinstance(error, OSError) else error
         say(str(told) or "the process that did it broke down; press again", bad=True)
-
-
-class Refusals(logging.Filter):
-    """Lets none of these into the log: a user was told."""
-
-    def filter(self, record: logging.LogRecord) -> bool:
-        """Whether it is written."""
-        return not (record.exc_info and isinstance(record.exc_info[1], BadInput | Ended))
 
 
 def start(desk: Desk, work: Callable[[], Work], *, then: str = "") -> None:

@@ -70,7 +70,7 @@ class _Follows:
     def _beginning(self) -> None:
         now = begins(read_description(self._desk.project.description))
         with box("form").style("width: 220px"):
-            Choice("how the logs begin", [*BEGINS] if now else ["", *BEGINS], now, lambda one: self._begin(one))
+            Choice("how the logs begin", [*BEGINS] if now else ["", *BEGINS], now, self._begin)
 
     def told(self) -> None:
         """What is in the project now, though another tab, or undo, has written it."""

@@ -141,10 +141,9 @@ class _View:
                     text("span", f"{k + 1}. {_typed(one)}", "mono dim" if one.get("off") else "mono")
                     for words, by, end in (("↑", -1, 0), ("↓", 1, len(chain) - 1)):
                         off = "Nothing lies beyond" if k == end else ""
-                        press = button(words, partial(self._move, k, by), "small quiet", off=off)
-                        press._props["aria-label"] = f"move step {k + 1} {'up' if by < 0 else 'down'}"
-                    press = button("Remove", partial(self._move, k, 0), "small quiet")
-                    press._props["aria-label"] = f"remove step {k + 1}"
+                        label = f"move step {k + 1} {'up' if by < 0 else 'down'}"
+                        button(words, partial(self._move, k, by), "small quiet", off=off, label=label)
+                    button("Remove", partial(self._move, k, 0), "small quiet", label=f"remove step {k + 1}")
 
     def _turn(self, number: int, on: bool) -> None:
         chain = self._content()

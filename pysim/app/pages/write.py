@@ -42,10 +42,8 @@ class Writing:
         is_new, self._learned = learned != self._learned, learned
         self._chart = None
         if learned is not None:
-            times = f" times {learned['factor']}" if learned["factor"] else ""
-            explains = (
-                f"A curve over {learned['depends_on']}{times} explains {100 * learned['share']:.1f} % of the misfit."
-            )
+            over = learned["depends_on"] + (f" times {learned['factor']}" if learned["factor"] else "")
+            explains = f"A curve over {over} explains {100 * learned['share']:.1f} % of the misfit."
             text("p", f"{explains} The band holds 95 percent.", "small")
             if len(learned["shape"]["argument"]) > 1:
                 self._chart = Chart(*self._figure(), height=280)
@@ -55,18 +53,6 @@ class Writing:
             self._place = LawPlace.of(str(model["class"]), self._slot, libraries)
         except (BadInput, KeyError):
             return
-        self._build()
-        if is_new and self._law:
-            self._typed(self._law)
-
-    def _figure(self) -> tuple[Mapping[str, Any], str]:
-        """The curves, and what they are."""
-        assert self._learned is not None
-        over = f"Learned law at {self._slot} over {self._learned['depends_on']} with its 95 percent band"
-        words = over if self._curve is None else f"Learned law, and the one written: {self._law}"
-        return law_chart(self._learned, self._curve), words
-
-    def _build(self) -> None:
         slot = self._place.slot
         text("h3", f"Write a law for {slot.name}")
         words = ", ".join(f"{name} ({self._place.units.get(name) or 'any unit'})" for name in (*slot.sees, "time"))
@@ -76,6 +62,15 @@ class Writing:
         field = Entry(f"law for {slot.name}", self._law, self._typed, props, tag="textarea", each=True)
         field.classes("field mono")._props["placeholder"] = f"-F_c*tanh({(slot.sees or ('time',))[-1]}/v_0)"
         live(lambda: self._version, self._rows, "tight")
+        if is_new and self._law:
+            self._typed(self._law)
+
+    def _figure(self) -> tuple[Mapping[str, Any], str]:
+        """The curves, and what they are."""
+        assert self._learned is not None
+        over = f"Learned law at {self._slot} over {self._learned['depends_on']} with its 95 percent band"
+        words = over if self._curve is None else f"Learned law, and the one written: {self._law}"
+        return law_chart(self._learned, self._curve), words
 
     def _typed(self, law: str) -> None:
         """The last letter wins: those that came while one text was read are left out."""
