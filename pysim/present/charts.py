@@ -122,7 +122,8 @@ def heat_map(
         across: the axis of the columns.
         more: of the field, such as its colours.
     """
-    heat: Chart = {"type": "heatmap", "x": [*map(plain, columns)], "y": [*map(plain, rows)], "z": values, "text": text}
+    names = [plain(row).replace(" (", "<br>(") for row in rows]  # a narrow page has room for half of one
+    heat: Chart = {"type": "heatmap", "x": [*map(plain, columns)], "y": names, "z": values, "text": text}
     heat |= {"texttemplate": "%{text}", "xgap": 2, "ygap": 2, **more}
     down = axis(type="category", autorange="reversed", showgrid=False, ticksuffix="  ")
     return chart([heat], xaxis=across, yaxis=down, showlegend=False, **layout)
