@@ -17,13 +17,16 @@ _QUICK = 1.0  # s; drawing a search that takes less would only hold it up
 
 def moving(desk: Desk) -> None:
     """The search that runs, or that was stopped, point by point; nothing where there is none."""
-    live(lambda: (desk.beat, desk.version), lambda: _build(desk), "gap")
+    live(lambda: (desk.beat, desk.version, _is_quick(desk)), lambda: _build(desk), "gap")
+
+
+def _is_quick(desk: Desk) -> bool:
+    return desk.runner.running is not None and desk.runner.running.seconds < _QUICK
 
 
 def _build(desk: Desk) -> None:
-    running = desk.runner.running
-    job = running or desk.unfinished()
-    if job is not None and job.trials and (running is None or running.seconds > _QUICK):
+    job = desk.runner.running or desk.unfinished()
+    if job is not None and job.trials and not _is_quick(desk):
         _search(job)
 
 
