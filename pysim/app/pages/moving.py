@@ -6,7 +6,6 @@ from collections.abc import Iterable
 from typing import Any
 
 from pysim.app.desk import Desk
-from pysim.app.jobs import Job
 from pysim.app.live import live
 from pysim.app.parts import Chart, Table, box, card, text
 from pysim.app.records import followed_overlay
@@ -26,11 +25,8 @@ def _is_quick(desk: Desk) -> bool:
 
 def _build(desk: Desk) -> None:
     job = desk.runner.running or desk.unfinished()
-    if job is not None and job.trials and not _is_quick(desk):
-        _search(job)
-
-
-def _search(job: Job) -> None:
+    if job is None or not job.trials or _is_quick(desk):
+        return
     ranked = left_over(job.trials)
     best = min(job.trials, key=lambda one: float(one["error"]))
     with card(job.work.title):
