@@ -44,7 +44,7 @@ def _top(desk: Desk) -> None:
         _chain(desk, settings.added)
 
 
-def _chain(desk: Desk, added: Sequence[str]) -> None:
+def _chain(desk: Desk, added: tuple[str, ...]) -> None:
     """What the model has now, and the way back."""
     with box("row end"):
         with box("chain"):
