@@ -91,7 +91,7 @@ def cached(key: str) -> Path | None:
             if path != _place(key, path):
                 raise BuildError(f"{path} was changed after it was built; delete it and build again.")
             with suppress(OSError):  # Windows: another process has it open
-                os.utime(path)
+                os.utime(path, ns=(time.time_ns(), path.stat().st_mtime_ns))  # who has read it sees it unchanged
             return path
     return None
 
@@ -112,7 +112,7 @@ def _tidy(folder: Path) -> None:
     used: dict[Path, float] = {}
     for path in folder.glob("*.fmu"):
         with suppress(OSError):
-            used[path] = path.stat().st_mtime
+            used[path] = path.stat().st_atime
     lately = time.time() - IN_USE
     for path in sorted(used, key=used.__getitem__, reverse=True)[KEPT_FMUS:]:
         if used[path] < lately:

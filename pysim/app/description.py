@@ -125,6 +125,18 @@ def begin_logs(content: dict[str, Any], words: str) -> None:
                 record["initial"] = BEGINS[words]
 
 
+def leave_column_out(content: dict[str, Any], signal: str) -> None:
+    """Read a signal no more.
+
+    Args:
+        content: of a dataset.toml; changed.
+    """
+    del content["signals"][signal]
+    for record in content["records"]:
+        if "columns" in record:
+            record["columns"] = ["-" if one == signal else one for one in record["columns"]]
+
+
 def leave_out(content: dict[str, Any], sources: Collection[str]) -> None:
     """Leave out all records of some files.
 

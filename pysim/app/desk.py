@@ -14,6 +14,7 @@ from nicegui import run
 from pysim.app.answers import Answer, Answers
 from pysim.app.history import History
 from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
+from pysim.app.live import news
 from pysim.app.project import Project
 from pysim.app.records import raw_of
 from pysim.app.upload import Batch, Limits
@@ -22,7 +23,7 @@ from pysim.identify.data_check import DataCheck, FindingCode, check_dataset
 from pysim.io import read_described, write_file
 from pysim.io.prepare import prepared
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
-from pysim.workflow import LawPlace, class_name_of, command_line, effect_class
+from pysim.workflow import LawPlace, class_name_of, effect_class
 from pysim.workflow.own_law import Range
 
 _BUILD_LIMIT = 1200.0  # s: the 900 that fmu_build.pack.compiler grants the first compilation, and more than any takes
@@ -95,12 +96,10 @@ class Desk:
 
     def changed(self) -> None:
         """Something that pages show is other than before."""
+        self.history.look()  # now: what is chosen next is another step
         self.version += 1
         self.beat += 1
-
-    def redo(self, words: Sequence[str]) -> str:
-        """The line to type in the project's folder, of words of the command line."""
-        return command_line(words, self.project.folder)
+        news.emit()
 
     def open(self, folder: Path, *, tasks: str = TASKS) -> None:
         """Show another project from now on; nothing of it is read yet.
@@ -166,11 +165,6 @@ class Desk:
         return self.loaded.check if self.loaded else None
 
     @property
-    def sketches(self) -> dict[str, Any]:
-        """Of the laws of the effects that fit."""
-        return {str(one["name"]): one["sketch"] for one in (self.model or {}).get("effects", [])}
-
-    @property
     def answers(self) -> Answers:
         """Finished results, read once per change."""
         if self._answers is None or self._answers[0] != self.version:
@@ -183,20 +177,18 @@ class Desk:
         self.history.look()
         self.beat += len(self.history.past) != steps
         before = self.runner.running
-        if not self.runner.poll():
-            return
-        self.beat += 1
+        self.beat += self.runner.poll()
         if before is not None and self.runner.running is None:
             self.last = read_job(self.project.results(before.work.name))
-            self._ended()
             self.changed()
+            self._ended()
+        news.emit()  # a clock goes on, too
 
     def _ended(self) -> None:
         """A finished diagnosis or addition says what the model has from now on."""
         job = self.last
         if job is None or job.state != DONE:
             return
-        self.changed()
         answer = next((one for one in self.answers.all if one.job.work.name == job.work.name), None)
         if answer is not None and (job.work.name == "diagnose" or job.work.words[0] == "add"):
             self.project.change(added=answer.added)
@@ -210,7 +202,8 @@ class Desk:
         if self.taking:
             raise BadInput("a drop is being taken over; try again in a moment")
         self.last = None
-        self.runner.start(work)
+        loop = asyncio.get_running_loop()
+        self.runner.start(work).add_done_callback(lambda _: loop.call_soon_threadsafe(self.tick))  # at once
         deleted = self.project.settings().deleted
         if work.name in deleted:  # it is made anew
             self.project.change(deleted=tuple(one for one in deleted if one != work.name))
@@ -271,15 +264,17 @@ class Desk:
         self.project.change(**settings, added=())
         self.changed()
 
-    def set_values(self, values: Mapping[str, float]) -> None:
+    def set_values(self, values: Mapping[str, float], **settings: Any) -> None:
         """Give parameters other values than the model has.
 
+        Args:
+            settings: to choose otherwise at once.
         Raises:
             BadInput: work is running.
         """
         self._free_to_change()
         self.project.set_values(values)
-        self.project.change(added=())
+        self.project.change(**settings, added=())
         self.changed()
 
     def keep(self, found: Mapping[str, float]) -> None:
@@ -332,11 +327,6 @@ class Desk:
         """Call the model with some effects otherwise; "" takes its name from it."""
         names = {**self.project.settings().named, "+".join(added): " ".join(name.split())}
         self.project.change(names=tuple(f"{key}={one}" for key, one in names.items() if one))
-        self.changed()
-
-    def undo(self) -> None:
-        """Without the last effect."""
-        self.project.change(added=self.project.settings().added[:-1])
         self.changed()
 
     async def turn_back(self, step: Callable[[], None]) -> None:

@@ -208,9 +208,11 @@ class Runner:
         """The job that runs, with its events; None where none does."""
         return self._job if self._answer is not None else None
 
-    def start(self, work: Work) -> None:
+    def start(self, work: Work) -> Future[Any]:
         """Begin.
 
+        Returns:
+            that is done when the work has ended, however it did.
         Raises:
             BadInput: something runs already, here or in the folder of the result, or another program has a file of it.
         """
@@ -228,6 +230,7 @@ class Runner:
         job = Job(work, RUNNING, time.time(), None, now, stage="starting", process=self.worker.warm())
         _write_job(job, folder)
         self._answer, self._job, self._stopped = self.worker.ask("step", work), job, False
+        return self._answer
 
     def stop(self) -> None:
         """End the worker; what it has found stays in its checkpoint."""

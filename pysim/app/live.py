@@ -11,21 +11,21 @@ import weakref
 from collections.abc import Callable
 from typing import Any
 
-from nicegui import binding, json, ui
+from nicegui import Event, binding, json, ui
 from nicegui.element import Element
 
-_PULSE = 0.3  # s between two looks at what has changed
+news: Event[[]] = Event()  # something that pages show may be other than before
 
 
 def live(key: Callable[[], object], build: Callable[[], Any], kind: str = "") -> Element:
-    """A part that is built anew whenever its key changes, in every tab.
+    """A part that is built anew where there are news and its key has changed, in every tab.
 
     Rows of a list that look alike have a `mark`.
     """
     place = ui.element("div").classes(kind)
     known: list[object] = []
 
-    def look() -> None:
+    def build_where_new() -> None:
         now = key()
         if known and known[0] == now:
             return
@@ -37,8 +37,15 @@ def live(key: Callable[[], object], build: Callable[[], Any], kind: str = "") ->
         finally:
             _follow(before, place)
 
-    look()
-    ui.timer(_PULSE, look)
+    async def look() -> None:
+        """Once what brought the news is done."""
+        if place.is_deleted:
+            news.unsubscribe(look)
+        else:
+            build_where_new()
+
+    build_where_new()
+    news.subscribe(look, unsubscribe_on_delete=False)
     return place
 
 

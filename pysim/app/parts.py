@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 import nicegui.elements.plotly  # registers the library that chart.js loads
-from nicegui import ui
+from nicegui import json, ui
 from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
 from pysim.app.flowchart import CONFIG, flowchart
+from pysim.app.live import news
 from pysim.app.upload import Limits
 from pysim.io import shown_value
 
@@ -32,6 +33,8 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         height: px.
     """
 
+    follows = True
+
     def __init__(
         self,
         figure: Mapping[str, Any],
@@ -43,8 +46,8 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
         height: int = 360,
     ) -> None:
         super().__init__()
-        self._props["figure"], self._props["label"], self._props["series"] = figure, label, series
-        self._props["stamp"] = 0
+        self._props["series"] = series
+        self.show(figure, label)
         self.style(f"height: {height}px")
         if on_pick is not None:
             self.on("pick", lambda event: on_pick(event.args))
@@ -53,8 +56,8 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
 
     def show(self, figure: Mapping[str, Any], label: str) -> None:
         """Another figure in its place."""
-        self._props["figure"], self._props["label"] = figure, label
-        self._props["stamp"] += 1
+        self._props["figure"] = json.dumps(figure)  # NiceGUI would look at every number of it
+        self._props["label"] = label
         self.update()
 
     def follow(self, ys: Sequence[Sequence[float]], traces: Sequence[int], number: int) -> None:
@@ -125,16 +128,6 @@ class Table(Element, component=str(_STATIC / "table.js")):
         if on_tick is not None:
             self.on("tick", lambda event: on_tick(int(event.args["row"]), bool(event.args["on"])))
 
-    def show(self, rows: Sequence[Sequence[Any]]) -> None:
-        """Other rows."""
-        self._props["rows"] = [list(row) for row in rows]
-        self.update()
-
-    def pick(self, row: int) -> None:
-        """Mark a row."""
-        self._props["picked"] = row
-        self.update()
-
 
 def quantity(value: float | None, unit: str) -> dict[str, Any] | str:
     """A cell of a table, with its unit; empty where there is no value.
@@ -189,6 +182,7 @@ class _Field(Element):
             self._props["value"] = given
             self._props["stamp"] += 1
             self.update()
+            news.emit()
             put(given)
 
         self._props["value"], self._props["stamp"] = value, 0
@@ -252,18 +246,26 @@ def box(kind: str, tag: str = "div") -> Element:
     return ui.element(tag).classes(kind)
 
 
-def button(words: str, action: Callable[[], Any], kind: str = "", *, off: str = "") -> TextElement:
+def button(words: str, action: Callable[[], Any], kind: str = "", *, off: str = "", label: str = "") -> TextElement:
     """A button.
 
     Args:
         kind: "main" for the one thing to do next, "quiet", or "".
         off: why it cannot be pressed now; shown beside the pointer.
+        label: what it does, where its words alone do not say that.
     """
     element = text("button", words, f"button {kind}").props("type=button")
+    if label:
+        element._props["aria-label"] = label
     if off:
         element._props["disabled"] = True
         element._props["title"] = off
-    return element.on("click", lambda: action())
+
+    def press() -> Any:
+        news.emit()
+        return action()
+
+    return element.on("click", press)
 
 
 def head(title: str, lead: str = "") -> None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import contextlib
 import json
+import logging
 import shutil
 import socket
 import tempfile
@@ -104,6 +105,7 @@ def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
     app.timer(_TICK, desk.tick)
     app.on_startup(lambda: _announce(words, host, port, address if show else ""))
     app.on_startup(desk.read)
+    logging.getLogger("nicegui").addFilter(lambda one: not (one.exc_info and isinstance(one.exc_info[1], BadInput)))
     app.on_shutdown(lambda: desk.runner.close())  # of the project that is shown then
     ui.run(
         root=lambda: shell(desk),
@@ -117,6 +119,7 @@ def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
         tailwind=False,
         show_welcome_message=False,
         reconnect_timeout=60.0,
+        ws_per_message_deflate=host not in _LOOPBACK,  # it costs more than it saves on one machine
     )
 
 
@@ -245,7 +248,10 @@ def _routes(desk: Desk) -> None:
             return PlainTextResponse(str(disk_trouble(error)), 507)
         finally:
             desk.taking = False
-        await (desk.read_model() if adopted.kind == "model" else desk.read_data())
+        if adopted.kind != "model":
+            await desk.read_data()
+        if adopted.model or adopted.libraries:
+            await desk.read_model()
         return PlainTextResponse(adopted.text)
 
     @app.get("/series")

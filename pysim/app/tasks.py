@@ -59,6 +59,7 @@ class Tasks:
         self._project = Project(folder)
         self._of = ""  # the fingerprint of what is kept
         self._parts: SessionParts | None = None
+        self._sessions: dict[Settings | None, Session] = {}
         self._found: dict[str, Diagnosed] = {}
         self._followed: tuple[Any, ...] = ()
 
@@ -163,7 +164,7 @@ class Tasks:
                 bounds=settings.ranges, values=self._project.values(), reference_hz=reference_of(measured.responses()),
             )  # fmt: skip
             self._found = self._found if self._of == now else {}
-            self._of = now
+            self._of, self._sessions = now, {}
         return self._parts
 
     def _result(self, work: Work, tell: Callable[[ProgressEvent], None]) -> Diagnosed:
@@ -171,18 +172,19 @@ class Tasks:
         parts = self._opened(laws_of(self._project, work.effects))
         report = self._project.results(work.name) / REPORT
         report.mkdir(exist_ok=True)
-        found = _steps(work, parts)(progress=tell, checkpoint=report / CHECKPOINT)
+        found = self._function(work, parts)(progress=tell, checkpoint=report / CHECKPOINT)
         found = whole_answer(found, parts, place="data", command=command_line(work.words))
         beside = {name: path.name for name, path in write_extended(found, parts, report).items()}
         self._found[work.name] = answered(work.kind, found, parts.dataset, parts.model_name, beside)
         return self._found[work.name]
 
-
-def _steps(work: Work, parts: SessionParts) -> Callable[..., Diagnosis]:
-    """The function that does a piece of work."""
-    settings = Settings(max_effects=0) if work.kind == "rank" else None
-    session: Session = session_of(parts, settings)
-    if work.kind == "add":
-        return partial(add, session, effects_of(work.effects, parts))
-    steps: dict[str, Callable[..., Diagnosis]] = {"compare": compare, "locate": learn, "rank": rank}
-    return partial(steps.get(work.kind, diagnose), session)
+    def _function(self, work: Work, parts: SessionParts) -> Callable[..., Diagnosis]:
+        """The function that does a piece of work."""
+        settings = Settings(max_effects=0) if work.kind == "rank" else None
+        if settings not in self._sessions:
+            self._sessions[settings] = session_of(parts, settings)
+        session = self._sessions[settings]
+        if work.kind == "add":
+            return partial(add, session, effects_of(work.effects, parts))
+        steps: dict[str, Callable[..., Diagnosis]] = {"compare": compare, "locate": learn, "rank": rank}
+        return partial(steps.get(work.kind, diagnose), session)

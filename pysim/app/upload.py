@@ -8,7 +8,7 @@ import re
 import shutil
 import zipfile
 from collections.abc import AsyncIterator, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from secrets import token_urlsafe
 
@@ -198,22 +198,28 @@ def adopt(batch: Batch, project: Project) -> Adopted:
     try:
         _sweep(root)
         batch.unpack()
-        descriptions = [path for path in _files(root) if path.name == "dataset.toml"]
-        if descriptions:
-            return _dataset(descriptions, project)
+        described = _described([path for path in _files(root) if path.name == "dataset.toml"])
         models = [path for path in _files(root) if path.suffix.lower() in (".fmu", ".mo")]
-        if models:
-            return _model(root, models, project)
+        if described:  # a model below its folder is part of it
+            models = [path for path in models if path.parent == _single(root)]
+        model = _model(root, models, project) if models else None  # with all that is in its library
         logs = [path for path in _files(root) if path.suffix.lower() in READERS]
-        if not logs:
+        if model is not None and described is None and all(path.suffix.lower() == ".txt" for path in logs):
+            return model  # a text beside a model is about it
+        if described is None and not logs:
             found = ", ".join(sorted({path.suffix or path.name for path in _files(root)})[:6]) or "nothing"
             taken = ", ".join(READERS)
             raise BadInput(f"no data set, no logs and no model in this: {found}; drop logs as {taken}")
-        kept = project.replace_data(_single(root))
-        text = f"{counted(len(logs), 'log')} without a dataset.toml; say below what their columns are{_kept(kept)}"
-        return Adopted("logs", text)
+        data = _dataset(described, project) if described else _logs(root, logs, project)
+        return data if model is None else replace(model, kind=data.kind, text=f"{model.text}; {data.text}")
     finally:
         batch.end()
+
+
+def _logs(root: Path, logs: Sequence[Path], project: Project) -> Adopted:
+    kept = project.replace_data(_single(root))
+    text = f"{counted(len(logs), 'log')} without a dataset.toml; say below what their columns are{_kept(kept)}"
+    return Adopted("logs", text)
 
 
 def _files(root: Path) -> list[Path]:
@@ -245,12 +251,17 @@ def _parts(name: str) -> list[str]:
     return [part for part in PurePosixPath(name.replace("\\", "/")).parts if part != "."]
 
 
-def _dataset(descriptions: list[Path], project: Project) -> Adopted:
-    top = min(descriptions, key=lambda path: len(path.parts))
+def _described(descriptions: Sequence[Path]) -> Path | None:
+    """The only dataset.toml; None without one."""
     if len(descriptions) > 1:
         raise BadInput(f"{len(descriptions)} files dataset.toml in this; drop one data set at a time")
-    refuse_outside(top)
-    kept = project.replace_data(top.parent)
+    for one in descriptions:
+        refuse_outside(one)
+    return next(iter(descriptions), None)
+
+
+def _dataset(described: Path, project: Project) -> Adopted:
+    kept = project.replace_data(described.parent)
     return Adopted("dataset", f"A data set was taken over{_kept(kept)}")
 
 

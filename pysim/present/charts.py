@@ -69,9 +69,10 @@ def chart(data: Sequence[Mapping[str, Any]], **layout: Any) -> Chart:
 
 
 def axis(title: str = "", **more: Any) -> dict[str, Any]:
-    """A quiet axis."""
-    look = {"gridcolor": "@grid", "linecolor": "@line", "tickcolor": "@line", "zeroline": False, "automargin": True}
-    return {**look, "title": {"text": title, "standoff": 8, "font": {"size": 12.5}}, **more}
+    """A quiet axis; to look for labels that have no room would take a third of a drawing."""
+    look = {"gridcolor": "@grid", "linecolor": "@line", "tickcolor": "@line", "zeroline": False}
+    room = {"automargin": True, "ticklabeloverflow": "allow"}
+    return {**look, **room, "title": {"text": title, "standoff": 8, "font": {"size": 12.5}}, **more}
 
 
 def step_axis(names: Sequence[str]) -> dict[str, Any]:
@@ -121,7 +122,8 @@ def heat_map(
         across: the axis of the columns.
         more: of the field, such as its colours.
     """
-    heat: Chart = {"type": "heatmap", "x": [*map(plain, columns)], "y": [*map(plain, rows)], "z": values, "text": text}
+    names = [plain(row).replace(" (", "<br>(") for row in rows]  # a narrow page has room for half of one
+    heat: Chart = {"type": "heatmap", "x": [*map(plain, columns)], "y": names, "z": values, "text": text}
     heat |= {"texttemplate": "%{text}", "xgap": 2, "ygap": 2, **more}
     down = axis(type="category", autorange="reversed", showgrid=False, ticksuffix="  ")
     return chart([heat], xaxis=across, yaxis=down, showlegend=False, **layout)

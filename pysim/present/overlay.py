@@ -247,8 +247,7 @@ def overlay_chart(
         low = max(top - size, 0.0)
         layout[f"yaxis{k + 1 if k else ''}"] = axis(title, domain=[low, top], anchor="x")
         top -= size + gap
-    last = len(heights)
-    layout["xaxis"]["anchor"] = f"y{last}" if last > 1 else "y"
+    layout["xaxis"]["anchor"] = f"y{len(heights)}" if len(heights) > 1 else "y"
     bands = [level_band(-HALF_95, HALF_95, yref=f"y{2 * k + 2}") for k in range(len(names) if models else 0)]
     return chart(traces, **layout, shapes=bands, dragmode="zoom", margin={"l": 74, "r": 18, "t": 30, "b": 46})
 

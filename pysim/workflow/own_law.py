@@ -92,13 +92,14 @@ def typed_law(
     Raises:
         LawRefused: what is wrong, and where.
     """
+    from fmu_build.text.expressions import names_in
     from pysim.effects import law_class, law_equations, parameter_units
     from pysim.effects.law import Law
 
     equations = law_equations(_NAME, law, place.slot)
     read, chosen = Law(dict(equations)), {name: Range(*own) for name, own in (ranges or {}).items()}
     units = parameter_units(equations, {**place.units, **{name: own.unit for name, own in chosen.items() if own.unit}})
-    named = dict.fromkeys(name for _, tree in equations for name in _names(tree))
+    named = dict.fromkeys(name for _, tree in equations for name in names_in(tree))
     parameters = [name for name in named if name not in place.units and name not in read.values]
     units |= {name: own.unit for name, own in chosen.items() if name in parameters and own.unit}
     kept = {name: own for name, own in chosen.items() if name in parameters}
@@ -109,20 +110,15 @@ def typed_law(
     free = [name for name in parameters if name not in values]
     values |= dict.fromkeys(free, 1.0) if curve is None else curve.followed(free, values, units)
     linear = _linear(read, place.slot, values)
-    found = {name: _usual_range(values[name], units.get(name) or "1", name in linear) for name in parameters}
+    wide = _WIDE**3 if curve is None else _WIDE  # a guess may be far off
+    found = {name: _usual_range(values[name], units.get(name) or "1", name in linear, wide) for name in parameters}
     return TypedLaw({**found, **kept}, None if curve is None else curve.beside(values))
 
 
-def _names(tree: Any) -> Any:
-    from fmu_build.text.expressions import names_in
-
-    return names_in(tree)
-
-
-def _usual_range(value: float, unit: str, is_strength: bool) -> Range:
+def _usual_range(value: float, unit: str, is_strength: bool, wide: float) -> Range:
     """A strength may be nothing, and on the other side too; what shapes a law keeps its sign."""
-    low, high = sorted((0.0 if is_strength else value / _WIDE, _WIDE * value))
-    return Range(*((-_WIDE, _WIDE) if low == high else (low, high)), value, unit)
+    low, high = sorted((0.0 if is_strength else value / wide, wide * value))
+    return Range(*((-wide, wide) if low == high else (low, high)), value, unit)
 
 
 @dataclass(frozen=True)

@@ -174,7 +174,8 @@ def test_a_cache_that_cannot_be_written_names_the_cure(root: Path, fmu: Path) ->
 def test_the_unused_go_first(fmu: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     for k, name in enumerate("abc"):
         os.utime(store(name, fmu), (k, k))
-    cached("a")  # used just now
+    assert (used := cached("a")) is not None  # just now
+    assert used.stat().st_mtime == 0  # who has read it sees it unchanged
     monkeypatch.setattr(cache, "KEPT_FMUS", 2)
     store("d", fmu)
     assert [cached(name) is not None for name in "abcd"] == [True, False, False, True]

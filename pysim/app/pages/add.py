@@ -10,7 +10,7 @@ from typing import Any
 from pysim.app.answers import Answer, history
 from pysim.app.desk import Desk
 from pysim.app.live import live
-from pysim.app.pages.common import attempt, busy, doubts, ended, nothing, start
+from pysim.app.pages.common import busy, doubts, ended, nothing, start
 from pysim.app.pages.moving import moving
 from pysim.app.parts import Chart, Entry, Table, box, button, card, head, note, text
 from pysim.present.criteria import CRITERIA
@@ -44,7 +44,7 @@ def _top(desk: Desk) -> None:
         _chain(desk, settings.added)
 
 
-def _chain(desk: Desk, added: Sequence[str]) -> None:
+def _chain(desk: Desk, added: tuple[str, ...]) -> None:
     """What the model has now, and the way back."""
     with box("row end"):
         with box("chain"):
@@ -53,7 +53,7 @@ def _chain(desk: Desk, added: Sequence[str]) -> None:
                     text("span", "→", "arrow").props('aria-hidden="true"')
                 text("span", words, "chip")
         if added:
-            button(f"Undo {added[-1]}", lambda: attempt(desk.undo), "small", off=busy(desk))
+            button(f"Undo {added[-1]}", partial(desk.choose, added[:-1]), "small", off=busy(desk))
 
 
 def _below(desk: Desk) -> None:
@@ -94,23 +94,18 @@ def _branches(desk: Desk) -> None:
         Chart(figure, f"Error over noise of {len(found)} branches", height=300)
         with box("tight"):
             for letter, (added, one) in zip(ascii_uppercase, found.items(), strict=False):
+                all_, off = " + ".join(added), busy(desk)
                 with box("row").mark(*added):
-                    rename = lambda name, added=added: attempt(lambda: desk.name(added, name))  # noqa: E731
-                    field = Entry(f"name of branch {letter}", names[added], rename, f'type=text placeholder="{letter}"')
+                    rename, props = partial(desk.name, added), f'type=text placeholder="{letter}"'
+                    field = Entry(f"name of branch {letter}", names[added], rename, props)
                     field.classes("field").style("width: 150px")
                     for name in added:
                         text("span", f"+ {name}", "chip")
                     if added == now:
                         text("span", "shown", "chip good")
                     else:
-                        press = button("Show", partial(desk.choose, added), "small", off=busy(desk))
-                        press._props["aria-label"] = f"show {' + '.join(added)}"
-                    press = button("Delete", partial(_delete, desk, one), "small quiet", off=busy(desk))
-                    press._props["aria-label"] = f"delete {' + '.join(added)}"
-
-
-def _delete(desk: Desk, answer: Answer) -> None:
-    attempt(lambda: desk.delete(answer))
+                        button("Show", partial(desk.choose, added), "small", off=off, label=f"show {all_}")
+                    button("Delete", partial(desk.delete, one), "small quiet", off=off, label=f"delete {all_}")
 
 
 def _criteria(answer: Answer, added: Sequence[str]) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 
 from pysim.app.bare_logs import KINDS, ROLES, SINE, guesses, matched
 from pysim.app.desk import Desk
-from pysim.app.pages.common import amount, attempted
+from pysim.app.pages.common import amount
 from pysim.app.parts import Choice, Entry, box, button, card, note, text
 from pysim.io import counted
 from pysim.io.load import READERS
@@ -39,7 +39,7 @@ def describe_form(desk: Desk) -> None:
             text("span", "They are")
             with box("form").style("width: 220px"):
                 Choice("kind of the logs", KINDS, draft["kind"], partial(_set, draft, "kind"))
-            button("Use these logs", lambda: attempted(desk.describe(columns, draft["kind"])), "main", off=desk.doing)
+            button("Use these logs", lambda: desk.describe(columns, draft["kind"]), "main", off=desk.doing)
 
 
 def _draft(desk: Desk, logs: list[Path]) -> dict[str, Any]:

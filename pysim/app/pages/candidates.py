@@ -10,7 +10,7 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.live import live
-from pysim.app.pages.common import attempt, busy, ended, nothing, played, start
+from pysim.app.pages.common import busy, ended, nothing, played, start
 from pysim.app.pages.moving import moving
 from pysim.app.parts import box, button, card, curve, head, text
 
@@ -87,7 +87,7 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
         .mark(name)
     ):
         text("span", str(rank) if "score" in row else "·", "rank")
-        curve(desk.sketches.get(name))
+        curve(known and known["sketch"])
         with box("tight"):
             _named(known or {"name": name}, tied=tied)
         _gain(row, top)
@@ -96,7 +96,7 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
 
 def effect_row(desk: Desk, effect: Mapping[str, Any]) -> None:
     """An effect in three cells: sketch, name with law, and what tries it."""
-    curve(desk.sketches.get(str(effect["name"])))
+    curve(effect["sketch"])
     with box("tight candidate-words"):
         _named(effect)
     _trying(desk, str(effect["name"]))
@@ -135,5 +135,5 @@ def _gain(row: Mapping[str, Any], top: float) -> None:
 
 
 def _try(desk: Desk, name: str) -> None:
-    if attempt(lambda: desk.add(name)):
-        ui.navigate.to("/add")
+    desk.add(name)
+    ui.navigate.to("/add")

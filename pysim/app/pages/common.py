@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Awaitable, Callable
+from collections.abc import Callable
 from functools import partial
 from typing import Any
 from urllib.parse import quote
@@ -16,37 +16,20 @@ from pysim.app.jobs import FAILED, STOPPED, Work
 from pysim.app.parts import Chart, Entry, box, button, note, say, text
 from pysim.app.records import MOST, Overlay
 from pysim.app.worker import Ended
-from pysim.types import BadInput
+from pysim.types import UNITS, BadInput, conversion
 
 
-def attempt(action: Callable[[], object]) -> bool:
-    """Do what a button says; what cannot be is said in a sentence."""
-    try:
-        action()
-    except (BadInput, OSError) as error:
-        _refused(error)
-        return False
-    return True
-
-
-async def attempted(work: Awaitable[object]) -> bool:
-    """The same, of what takes a while."""
-    try:
-        await work
-    except (BadInput, OSError, Ended) as error:
-        _refused(error)
-        return False
-    return True
-
-
-def _refused(error: Exception) -> None:
-    told = disk_trouble(error) if isinstance(error, OSError) else error
-    say(str(told) or "the process that did it broke down; press again", bad=True)
+def refused(error: Exception) -> None:
+    """Say what cannot be done, whatever asked for it."""
+    if isinstance(error, BadInput | OSError | Ended):
+        told = disk_trouble(error) if isinstance(error, OSError) else error
+        say(str(told) or "the process that did it broke down; press again", bad=True)
 
 
 def start(desk: Desk, work: Callable[[], Work], *, then: str = "") -> None:
     """Start a piece of work, and go to a page."""
-    if attempt(lambda: desk.start(work())) and then:
+    desk.start(work())
+    if then:
         ui.navigate.to(then)
 
 
@@ -65,7 +48,23 @@ def busy(desk: Desk) -> str:
         return "Fill the cells that are empty, or cut them out, on the page Prepare"
     if not desk.project.settings().model:
         return "Name a model first"
+    if unfit(desk):
+        return "Let every signal be a variable of the model, or leave it out, on the page Data"
     return "Wait until the model is built" if desk.model_busy else desk.model_trouble and "Name another model"
+
+
+def unfit(desk: Desk) -> list[str]:
+    """What keeps signals from being variables of the model."""
+    variables = {} if desk.model is None else {str(one[0]): str(one[2]) for one in desk.model["variables"]}
+    units, found = {*variables.values()} - {"1", ""}, []  # a model without any counts in those of the data
+    for signal in desk.check.dataset.signals if desk.check and variables else ():
+        name, own, unit = signal.variable, variables.get(signal.variable), signal.unit
+        if own is None:
+            found.append(f"The model has no variable {name}; choose another one for {signal.name}, or leave it out.")
+        elif units and own in UNITS and conversion(unit, own) is None:
+            cure = f"choose {own} as its unit, and write as its factor how many {own} are 1 {unit}"
+            found.append(f"{signal.name} is in {unit}, {name} of the model in {own}; {cure}.")
+    return found
 
 
 def ended(desk: Desk) -> None:
@@ -86,8 +85,8 @@ def ended(desk: Desk) -> None:
             with box("row"):
                 if (best := job.best) is not None:
                     words = f"Keep its best values ({best['error']:.3g} × noise)"
-                    button(words, lambda: attempt(lambda: desk.keep(best["values"])), "small", off=busy(desk))
-                button("Go on", lambda: attempt(lambda: desk.start(job.work)), "small", off=busy(desk))
+                    button(words, lambda: desk.keep(best["values"]), "small", off=busy(desk))
+                button("Go on", lambda: desk.start(job.work), "small", off=busy(desk))
 
 
 def doubts(answer: Answer) -> None:

@@ -90,7 +90,7 @@ def _maps(desk: Desk, view: _View) -> None:
         for k, one in enumerate(error_maps(chosen[2], check.dataset)):
             figure = map_chart(one.rows, one.columns, one.values, one.title, scale=not k)
             label = f"Map of the error: {len(one.rows)} rows, {len(one.columns)} columns"
-            Chart(figure, label, height=76 + 30 * len(one.rows), on_pick=partial(_pick, view, one))
+            Chart(figure, label, height=76 + 36 * len(one.rows), on_pick=partial(_pick, view, one))
 
 
 def _pick(view: _View, one: ErrorMap, at: Mapping[str, Any]) -> None:

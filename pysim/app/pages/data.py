@@ -9,11 +9,11 @@ from typing import Any
 
 from nicegui import background_tasks, ui
 
-from pysim.app.description import change_description, hold_out, leave_out, read_description
+from pysim.app.description import change_description, hold_out, leave_column_out, leave_out, read_description
 from pysim.app.desk import Desk, Loaded
 from pysim.app.live import live
 from pysim.app.pages.bare import describe_form
-from pysim.app.pages.common import amount, attempt, busy, ended, record_chart, start
+from pysim.app.pages.common import amount, busy, ended, record_chart, start, unfit
 from pysim.app.pages.start import examples, projects
 from pysim.app.parts import Choice, Drop, Entry, Table, box, button, card, head, note, quantity, say, text
 from pysim.app.records import measured_overlay
@@ -27,6 +27,7 @@ _NO_SLOTS = (
     "The class has no slots, so the page can fit it and show where it fails, but not add what is missing. A slot is a "
     "part that is replaceable and whose filling gives 0; docs/tutorials/own_model.md shows one."
 )
+_OUT = "left out"  # in place of a role
 _NUMBERS = ("factor", "offset", "noise", "resolution")  # of a signal
 MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
 
@@ -117,9 +118,9 @@ def _model(desk: Desk, named: dict[str, str]) -> None:
 
 def _use(desk: Desk, named: dict[str, str], name: str) -> None:
     project, name = desk.project, named.get("name", name)
-    if attempt(lambda: project.use_model(project.model_name(name), project.settings().libraries)):
-        named.clear()
-        background_tasks.create(desk.read_model())
+    project.use_model(project.model_name(name), project.settings().libraries)
+    named.clear()
+    background_tasks.create(desk.read_model())
 
 
 def _data(desk: Desk) -> None:
@@ -151,22 +152,23 @@ def _refused(desk: Desk, loaded: Loaded) -> None:
 
 
 def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = False) -> None:
-    """Edit the description; what is refused is said, and nothing is changed.
+    """Edit the description; where that is refused, nothing is changed.
 
     Args:
         safe: whether the edit cannot make it one that is refused, so that nothing has to be read to know.
+    Raises:
+        BadInput: work is running, or what is wrong with it.
     """
-
-    def change() -> None:
+    try:
         if desk.runner.running is not None:
             raise BadInput("wait until the running work has ended, or stop it")
         content = read_description(desk.project.description)
         edit(content)
         change_description(desk.project.description, content, read=not safe)
         desk.project.change(added=())
-
-    attempt(change)
-    background_tasks.create(desk.read_data())
+        desk.history.look()
+    finally:
+        background_tasks.create(desk.read_data())  # what was typed is as it was, where it was refused
 
 
 def _described(desk: Desk) -> int:
@@ -189,23 +191,28 @@ def _signals(desk: Desk) -> None:
             "Noise is one standard deviation; left empty, it is estimated from the logs.",
             "small",
         )
-        with box("form").style("grid-template-columns: 1.1fr 0.6fr 0.7fr 1.5fr repeat(4, 0.8fr)"):
+        with box("form").style("grid-template-columns: 1.1fr 0.8fr 0.7fr 1.4fr repeat(4, 0.8fr)"):
             for words in ("signal", "role", "unit", "variable of the model", *_NUMBERS):
                 text("span", words, "head")
             for name, section in content["signals"].items():
                 _signal(desk, name, section, variables)
-    if desk.model is not None:
-        for signal in check.dataset.signals:
-            if variables and signal.variable not in variables:
-                note(f"The model has no variable {signal.variable}; choose another one for {signal.name}.", "bad")
+    for words in unfit(desk):
+        note(words, "bad")
 
 
 def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[str]) -> None:
     def put(key: str, value: Any) -> None:
         change(desk, lambda content: content["signals"][name].update({key: value}))
 
+    def put_role(role: str) -> None:
+        if role == _OUT:
+            change(desk, lambda content: leave_column_out(content, name))
+        else:
+            put("role", role)
+
     text("b", name)
-    text("span", str(section.get("role", "")))
+    role = str(section.get("role", ""))
+    Choice(f"role of {name}", list(dict.fromkeys((role, "input", "output", _OUT))), role, put_role)
     Choice(f"unit of {name}", UNITS, str(section.get("unit", "")), lambda value: put("unit", value))
     variable = str(section.get("variable", name))
     if variables:
@@ -261,8 +268,8 @@ def _earlier(desk: Desk) -> None:
 
 
 def _bring_back(desk: Desk, folder: Path) -> None:
-    if attempt(lambda: desk.bring_back(folder)):
-        background_tasks.create(desk.read_data())
+    desk.bring_back(folder)
+    background_tasks.create(desk.read_data())
 
 
 def _log_number(check: DataCheck, row: int) -> int | None:

@@ -11,8 +11,7 @@ from pysim.app.pages.candidates import effect_row
 from pysim.app.pages.common import busy, ended, nothing, start
 from pysim.app.pages.moving import moving
 from pysim.app.pages.write import Writing
-from pysim.app.parts import Chart, Drawing, box, button, card, note, text
-from pysim.present.diagnosis.figures.law import law_chart
+from pysim.app.parts import Drawing, box, button, card, note, text
 
 _Found = Mapping[str, Mapping[str, Any]]
 
@@ -117,30 +116,18 @@ def _below(desk: Desk, chosen: dict[str, str], laws: dict[str, Writing]) -> None
     if one is None and name not in slots:
         return
     with card(f"What {name} would need" if one else name):
-        if one and one["formula"]:
-            text("p", str(one["formula"]), "statement")
+        answer = desk.answers.newest("missing")
+        if one and (words := answer.data["reason"] if answer and name == next(iter(found)) else one["formula"]):
+            text("p", str(words), "statement")
         about = str(slots[name]["about"]) if name in slots else ""
         if about:
             text("p", f"{about}.", "small")
-        chart = None if one is None else _term(one)
         if one is None and found:
             text("p", "No law was learned here: other places explain more.", "note")
-        if name in slots:
-            laws.setdefault(name, Writing(desk, name)).show(one, chart)
+        laws.setdefault(name, Writing(desk, name)).show(one)
     _effects(desk, name)
-    answer = desk.answers.newest("missing")
     for line in answer.data["notes"] if answer is not None else ():
         note(str(line["text"]))
-
-
-def _term(one: Mapping[str, Any]) -> Chart | None:
-    """The law over what it depends on."""
-    explains = f"Over {one['depends_on']} it explains {100 * one['share']:.1f} % of the misfit."
-    text("p", f"{explains} The band holds 95 percent.", "small")
-    if len(one["shape"]["argument"]) < 2:
-        return None
-    words = f"Learned law at {one['slot']} over {one['depends_on']} with its 95 percent band"
-    return Chart(law_chart(one), words, height=280)
 
 
 def _effects(desk: Desk, slot: str) -> None:

@@ -11,9 +11,9 @@ from nicegui import background_tasks
 from pysim.app.description import BEGINS, begin_logs, begins, read_description
 from pysim.app.desk import Desk
 from pysim.app.live import live
-from pysim.app.pages.common import attempt, busy, nothing
+from pysim.app.pages.common import busy, nothing
 from pysim.app.pages.data import change
-from pysim.app.parts import Chart, Choice, Sliders, box, button, card, head, say, text
+from pysim.app.parts import Chart, Choice, Sliders, box, button, card, head, text
 from pysim.app.records import followed_overlay
 from pysim.app.worker import Ended
 from pysim.types import BadInput
@@ -59,7 +59,7 @@ class _Follows:
         with card("Parameters"):
             self._sliders = Sliders(self._rows(), self._moved, self._fit, self._bound)
             with box("row"):
-                button("All as the model has them", lambda: attempt(self._reset), "small")
+                button("All as the model has them", lambda: self._desk.set_values({}, bounds=()), "small")
         with card("Initial states"), box("row"):
             text("span", "The logs begin")
             live(lambda: self._desk.version, self._beginning)  # a choice may be undone at once
@@ -70,7 +70,7 @@ class _Follows:
     def _beginning(self) -> None:
         now = begins(read_description(self._desk.project.description))
         with box("form").style("width: 220px"):
-            Choice("how the logs begin", [*BEGINS] if now else ["", *BEGINS], now, lambda one: self._begin(one))
+            Choice("how the logs begin", [*BEGINS] if now else ["", *BEGINS], now, self._begin)
 
     def told(self) -> None:
         """What is in the project now, though another tab, or undo, has written it."""
@@ -108,36 +108,30 @@ class _Follows:
         if words:
             change(self._desk, lambda content: begin_logs(content, words), safe=True)
 
-    def _reset(self) -> None:
-        self._desk.change(bounds=())
-        self._desk.set_values({})
-
     def _bound(self, name: str, end: str, value: float) -> None:
         """Another end of the slider, and of what a fit may come to."""
         row = next(one for one in self._rows() if one["name"] == name)
-        low, high = (value if end == key else row[key] for key in ("min", "max"))
-
-        def put() -> None:
-            low_, high_ = (float("nan") if one is None else float(one) for one in (low, high))
-            low_ = row["value"] - abs(row["value"]) if low is None else low_
-            high_ = row["value"] + abs(row["value"]) if high is None else high_
-            if not low_ < high_:
-                raise BadInput(f"{name}: from {low_:g} to {high_:g} is no range; give a smaller min, or a larger max")
-            others = [one for one in self._desk.project.settings().bounds if one.rpartition("=")[0] != name]
-            self._desk.change(bounds=(*others, f"{name}={low_!r}:{high_!r}"))
-
-        attempt(put)
-        self._show()
+        here, far = row["value"], abs(row["value"])
+        ends = {"min": here - far, "max": here + far}  # where the model has none
+        low, high = (float(value if end == key else row[key] if row[key] is not None else ends[key]) for key in ends)
+        others = [one for one in self._desk.project.settings().bounds if one.rpartition("=")[0] != name]
+        try:
+            if not low < high:
+                raise BadInput(f"{name}: from {low:g} to {high:g} is no range; give a smaller min, or a larger max")
+            self._desk.change(bounds=(*others, f"{name}={low!r}:{high!r}"))
+        finally:
+            self._show()
 
     def _fit(self, name: str, on: bool) -> None:
         """Let a fit change a parameter, or leave it."""
         now = self._desk.project.settings().free or suggested(self._desk)
         free = tuple(one for one in now if one != name) + ((name,) if on else ())
-        if not free:
-            say("nothing would be fitted; leave at least one parameter ticked", bad=True)
-        else:
-            attempt(lambda: self._desk.change(free=free))
-        self._show()
+        try:
+            if not free:
+                raise BadInput("nothing would be fitted; leave at least one parameter ticked")
+            self._desk.change(free=free)
+        finally:
+            self._show()
 
     def _show(self) -> None:
         """The rows as the project has them."""
@@ -148,9 +142,9 @@ class _Follows:
     def _moved(self, name: str, value: float, done: bool) -> None:
         """A slider is elsewhere; what is kept is where it was let go."""
         self._values = {**self._values, name: value}
-        if done:
-            attempt(lambda: self._desk.set_values({**self._desk.project.values(), name: value}))
         self._ask()
+        if done:
+            self._desk.set_values({**self._desk.project.values(), name: value})
 
     def _ask(self) -> None:
         self._moves += 1

@@ -9,7 +9,7 @@ from typing import Any
 from pysim.app.description import moved, put_steps, read_description
 from pysim.app.desk import Desk
 from pysim.app.live import live
-from pysim.app.pages.common import attempt, attempted, nothing, record_chart
+from pysim.app.pages.common import nothing, record_chart
 from pysim.app.pages.data import change
 from pysim.app.parts import Choice, Entry, box, button, card, head, text
 from pysim.app.records import measured_overlay
@@ -64,8 +64,7 @@ class _View:
             off = self._desk.model_busy or self._desk.runner.running is not None or self._desk.model is None
             words = "Name a model, and wait until nothing runs" if off else ""
             with box("row"):
-                check_ = lambda: attempted(self._desk.check_with_model())  # noqa: E731
-                button("Check signs and units with the model", check_, "small", off=words)
+                button("Check signs and units with the model", self._desk.check_with_model, "small", off=words)
             for k, log in enumerate(check.dataset.logs()):
                 found = [one for one in check.findings if one.source == log.source]
                 with box("row").mark(log.source):
@@ -111,15 +110,11 @@ class _View:
         self._stretch("exclude", lambda name: {"log": name})
 
     def _stretch(self, word: str, of: Callable[[str], dict[str, Any]]) -> None:
-        def put() -> None:
-            if self._window is None:
-                raise BadInput("no stretch is chosen; drag over a part of the figure first")
-            assert self._desk.check is not None
-            ends = dict(zip(("start", "stop"), (float(f"{end:.6g}") for end in self._window), strict=True))
-            self._insert({"step": word, **of(self._desk.check.dataset.logs()[self.log].source), **ends})
-            self._window = None
-
-        attempt(put)
+        if self._window is None:
+            raise BadInput("no stretch is chosen; drag over a part of the figure first")
+        ends = dict(zip(("start", "stop"), (float(f"{end:.6g}") for end in self._window), strict=True))
+        self._insert({"step": word, **of(self._shown.logs()[self.log].source), **ends})
+        self._window = None
 
     def _content(self) -> list[dict[str, Any]]:
         """Steps as dataset.toml has them, those that are switched off too."""
@@ -146,10 +141,9 @@ class _View:
                     text("span", f"{k + 1}. {_typed(one)}", "mono dim" if one.get("off") else "mono")
                     for words, by, end in (("↑", -1, 0), ("↓", 1, len(chain) - 1)):
                         off = "Nothing lies beyond" if k == end else ""
-                        press = button(words, partial(self._move, k, by), "small quiet", off=off)
-                        press._props["aria-label"] = f"move step {k + 1} {'up' if by < 0 else 'down'}"
-                    press = button("Remove", partial(self._move, k, 0), "small quiet")
-                    press._props["aria-label"] = f"remove step {k + 1}"
+                        label = f"move step {k + 1} {'up' if by < 0 else 'down'}"
+                        button(words, partial(self._move, k, by), "small quiet", off=off, label=label)
+                    button("Remove", partial(self._move, k, 0), "small quiet", label=f"remove step {k + 1}")
 
     def _turn(self, number: int, on: bool) -> None:
         chain = self._content()
@@ -178,7 +172,7 @@ class _View:
                 if field:
                     text("span", unit, "head")
                     Entry("number of the step", self._number, partial(self._set, "_number"), "type=number step=any")
-            button("Add", lambda: attempt(self._made), "main")
+            button("Add", self._made, "main")
 
     def _set(self, key: str, value: str) -> None:
         setattr(self, key, value)

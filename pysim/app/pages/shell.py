@@ -12,7 +12,7 @@ from pysim.app.jobs import FAILED
 from pysim.app.live import live
 from pysim.app.pages.add import add_page
 from pysim.app.pages.candidates import candidates_page
-from pysim.app.pages.common import attempt
+from pysim.app.pages.common import refused
 from pysim.app.pages.compare import compare_page
 from pysim.app.pages.data import data_page
 from pysim.app.pages.help import help_of
@@ -48,6 +48,7 @@ def shell(desk: Desk) -> None:
     )
     _look(desk)
     seen = {"path": "/", "help": ""}
+    ui.on_exception(refused)
 
     def turn() -> None:
         seen["help"] = "" if seen["help"] else "open"
@@ -115,7 +116,7 @@ def _look_button(desk: Desk) -> None:
     look = desk.project.settings().look
     after = LOOKS[(LOOKS.index(look) + 1) % len(LOOKS)]
     words = {"auto": "◐ Auto", "light": "☀ Light", "dark": "☾ Dark"}[look]
-    press = button(words, lambda: attempt(lambda: desk.project.change(look=after)), "quiet")
+    press = button(words, lambda: desk.project.change(look=after), "quiet")
     press.props(f'title="Look: {look}; press for {after}"')
 
 

@@ -10,7 +10,6 @@ from nicegui import background_tasks, ui
 
 from pysim.app.desk import Desk
 from pysim.app.live import live
-from pysim.app.pages.common import attempt
 from pysim.app.parts import box, button, card, head, text
 from pysim.app.recent import recent
 
@@ -44,8 +43,8 @@ def examples(desk: Desk) -> None:
 
 def _open_example(desk: Desk, name: str) -> None:
     """In this project where it is empty, else in one of its own beside it."""
-    if not desk.project.empty and not attempt(lambda: desk.open(_free(desk.project.folder.parent, f"{name}-example"))):
-        return
+    if not desk.project.empty:
+        desk.open(_free(desk.project.folder.parent, f"{name}-example"))
     background_tasks.create(desk.example(name))
     ui.navigate.to("/compare")
 
@@ -71,9 +70,9 @@ def projects(desk: Desk) -> None:
 
 
 def _open(desk: Desk, folder: Path) -> None:
-    if attempt(lambda: desk.open(folder)):
-        background_tasks.create(desk.read())
-        ui.navigate.to("/")
+    desk.open(folder)
+    background_tasks.create(desk.read())
+    ui.navigate.to("/")
 
 
 def _version() -> str:

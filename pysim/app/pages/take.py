@@ -11,6 +11,7 @@ from pysim.app.desk import Desk
 from pysim.app.live import live
 from pysim.app.pages.common import nothing, played
 from pysim.app.parts import box, button, card, head, say, text
+from pysim.workflow import command_line
 
 _FILES = (
     (
@@ -54,7 +55,7 @@ def _build(desk: Desk) -> None:
 def commands(desk: Desk) -> str:
     """The lines that make every result again, in the order in which they were made."""
     done = [one.job.work.words for one in reversed(desk.answers.all)]
-    return "\n".join(map(desk.redo, done or [("data", "check", "data")]))
+    return "\n".join(command_line(words, desk.project.folder) for words in done or [("data", "check", "data")])
 
 
 def _files(answer: Answer) -> None:

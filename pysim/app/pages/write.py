@@ -9,8 +9,8 @@ from typing import Any
 from nicegui import background_tasks, run, ui
 
 from pysim.app.desk import Desk
-from pysim.app.live import live
-from pysim.app.pages.common import amount, attempted, busy
+from pysim.app.live import live, news
+from pysim.app.pages.common import amount, busy
 from pysim.app.parts import Chart, Entry, box, button, text
 from pysim.present.diagnosis.figures.law import law_chart
 from pysim.types import BadInput
@@ -29,25 +29,30 @@ class Writing:
         self._ranges: dict[str, Range] = {}  # as they are shown
         self._chosen: dict[str, Range] = {}  # by the user
         self._version = self._asked = 0
+        self._learned: Mapping[str, Any] | None = None
+        self._curve: list[float] | None = None  # of the law, beside the learned one
         self._followed = True  # whether usual values come from the learned curve
 
-    def show(self, learned: Mapping[str, Any] | None, chart: Chart | None) -> None:
+    def show(self, learned: Mapping[str, Any] | None) -> None:
         """As it is typed so far.
 
         Args:
-            learned: the law that was learned there, if one was.
-            chart: that shows it.
+            learned: the law that was learned there, if one was; drawn.
         """
-        self._learned, self._chart = learned, chart
+        is_new, self._learned = learned != self._learned, learned
+        self._chart = None
+        if learned is not None:
+            over = learned["depends_on"] + (f" times {learned['factor']}" if learned["factor"] else "")
+            explains = f"A curve over {over} explains {100 * learned['share']:.1f} % of the misfit."
+            text("p", f"{explains} The band holds 95 percent.", "small")
+            if len(learned["shape"]["argument"]) > 1:
+                self._chart = Chart(*self._figure(), height=280)
         project, model = self._desk.project, self._desk.model or {}
         try:
             libraries = [project.folder / one for one in project.settings().libraries]
             self._place = LawPlace.of(str(model["class"]), self._slot, libraries)
         except (BadInput, KeyError):
             return
-        self._build()
-
-    def _build(self) -> None:
         slot = self._place.slot
         text("h3", f"Write a law for {slot.name}")
         words = ", ".join(f"{name} ({self._place.units.get(name) or 'any unit'})" for name in (*slot.sees, "time"))
@@ -55,10 +60,17 @@ class Writing:
         text("p", f"It gives {gives}. It may use {words}. Any other name becomes a parameter.", "small")
         props = "rows=2 spellcheck=false autocomplete=off"
         field = Entry(f"law for {slot.name}", self._law, self._typed, props, tag="textarea", each=True)
-        field.classes("field mono")._props["placeholder"] = f"-F_c*tanh({[*slot.sees, 'time'][-1]}/v_0)"
-        if self._law:
-            self._typed(self._law)  # the curve anew
+        field.classes("field mono")._props["placeholder"] = f"-F_c*tanh({(slot.sees or ('time',))[-1]}/v_0)"
         live(lambda: self._version, self._rows, "tight")
+        if is_new and self._law:
+            self._typed(self._law)
+
+    def _figure(self) -> tuple[Mapping[str, Any], str]:
+        """The curves, and what they are."""
+        assert self._learned is not None
+        over = f"Learned law at {self._slot} over {self._learned['depends_on']} with its 95 percent band"
+        words = over if self._curve is None else f"Learned law, and the one written: {self._law}"
+        return law_chart(self._learned, self._curve), words
 
     def _typed(self, law: str) -> None:
         """The last letter wins: those that came while one text was read are left out."""
@@ -70,20 +82,20 @@ class Writing:
     async def _read(self) -> None:
         while self._version < self._asked:
             asked, law = self._asked, self._law
-            self._trouble, self._wrong, curve = "", -1, None
+            self._trouble, self._wrong, self._curve = "", -1, None
             try:
                 found = await run.io_bound(typed_law, law, self._place, self._learned, self._chosen)
                 if found is None:  # the server ends
                     return
                 self._ranges = {name: self._chosen.get(name, one) for name, one in found.ranges.items()}
-                curve = found.curve
-                self._followed = curve is not None
+                self._followed = found.curve is not None
+                self._curve = None if found.curve is None else found.curve.tolist()
             except BadInput as error:
                 self._trouble, self._wrong = str(error) if law.strip() else "", getattr(error, "place", -1)
-            if self._chart is not None and self._learned is not None:
-                written = None if curve is None else curve.tolist()
-                self._chart.show(law_chart(self._learned, written), f"Learned law, and the one written: {law}")
+            if self._chart is not None:
+                self._chart.show(*self._figure())
             self._version = asked
+            news.emit()
 
     def _rows(self) -> None:
         """What is wrong, or the parameters and the button that adds the law."""
@@ -122,5 +134,5 @@ class Writing:
         self._typed(self._law)
 
     async def _add(self) -> None:
-        if await attempted(self._desk.add_law(self._name, self._place, self._law, self._ranges)):
-            ui.navigate.to("/add")
+        await self._desk.add_law(self._name, self._place, self._law, self._ranges)
+        ui.navigate.to("/add")

@@ -1,7 +1,8 @@
 // A Plotly figure in the look of the page: colours by name, long signals by window, clicks and keys.
 const palette = (el) => {
   const style = getComputedStyle(el);
-  return (name) => style.getPropertyValue(`--${name}`).trim() || "#888";
+  const known = {}; // asking is slow
+  return (name) => (known[name] ??= style.getPropertyValue(`--${name}`).trim() || "#888");
 };
 
 function dressed(value, colour) {
@@ -28,7 +29,7 @@ function settings(series) {
 
 export default {
   template: `<div class="chart" :role="series ? 'group' : 'img'" :aria-label="label" :tabindex="series ? 0 : -1" @keydown="key"></div>`,
-  props: { figure: Object, series: Object, label: String, stamp: Number },
+  props: { figure: String, series: Object, label: String },
   async mounted() {
     const { Plotly } = await import("nicegui-plotly");
     this.Plotly = Plotly;
@@ -60,8 +61,11 @@ export default {
     if (this.Plotly) this.Plotly.purge(this.$el);
   },
   watch: {
-    stamp() {
-      if (this.Plotly) this.draw(); // the figure itself is handed over anew with every change of the page
+    figure: {
+      flush: "post", // a chart may have another height now
+      handler() {
+        if (this.Plotly) this.draw();
+      },
     },
   },
   methods: {
@@ -79,7 +83,7 @@ export default {
     async redraw() {
       while (this.wanted && this.$el.isConnected) {
         this.wanted = false;
-        const { data, layout } = dressed(JSON.parse(JSON.stringify(this.figure)), palette(this.$el));
+        const { data, layout } = dressed(JSON.parse(this.figure), palette(this.$el));
         const { clientWidth: width, clientHeight: height } = this.$el; // Plotly looks at it for the first drawing only
         if (width && height) Object.assign(layout, { width, height });
         const buttons = this.drawn ? undefined : settings(this.series);

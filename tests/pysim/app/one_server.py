@@ -13,14 +13,14 @@ from pathlib import Path
 
 from nicegui import Client, app, background_tasks
 
-from pysim.app import live, server
+from pysim.app import server
 from pysim.app.desk import Desk
 from pysim.app.upload import Limits
 from pysim.app.worker import TASKS
 from pysim.cli import main
 
 _routes = server._routes
-_PULSE, _HASTE = live._PULSE, 0.02  # s between two looks at what has changed
+_HASTE = 0.02  # s between two drawings
 
 
 def _routes_and_show(desk: Desk) -> None:
@@ -29,7 +29,7 @@ def _routes_and_show(desk: Desk) -> None:
 
     @app.post("/tests/show")
     async def show(folder: str, idle: bool, size: int, restless: bool) -> None:
-        live._PULSE, changes.active = _HASTE if restless else _PULSE, restless
+        changes.active = restless
         desk.runner.close()
         desk.runner.poll()
         for client in list(Client.instances.values()):  # pages of the project before

@@ -1,8 +1,6 @@
 """What all pages share: the newest reading of the data counts, and the newest model."""
 
 import asyncio
-import shlex
-import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -90,11 +88,3 @@ def test_a_build_beyond_its_limit_is_ended_and_the_next_one_goes(
 
 def test_the_first_compilation_has_the_time_that_the_compiler_grants_it() -> None:
     assert pysim.app.desk._BUILD_LIMIT > compiler._LONGEST_S
-
-
-def test_the_lines_to_type_are_of_this_environment_in_the_project_s_folder(
-    modelled: Desk, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    root = Path(pysim.app.desk.__file__).parents[2]
-    monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
-    assert shlex.split(modelled.redo(["locate", "data"]))[1:] == [str(root / "run.py"), "pysim", "locate", "data"]

@@ -1,20 +1,25 @@
 """What is taken away: the lines that make every result again."""
 
+from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 from pysim.app.pages.take import commands
+from pysim.workflow import command_line
+
+FOLDER = Path("project")
 
 
 def desk(*done: tuple[str, ...]) -> Any:
     """With results of these words, the newest first."""
     answers = [SimpleNamespace(job=SimpleNamespace(work=SimpleNamespace(words=words))) for words in done]
-    return SimpleNamespace(answers=SimpleNamespace(all=answers), redo=lambda words: f"run.py pysim {' '.join(words)}")
+    return SimpleNamespace(answers=SimpleNamespace(all=answers), project=SimpleNamespace(folder=FOLDER))
 
 
-def test_lines_are_those_that_work_where_the_page_was_started_the_oldest_first() -> None:
-    assert commands(desk(("rank", "data"), ("compare", "M"))) == "run.py pysim compare M\nrun.py pysim rank data"
+def test_lines_are_those_that_work_in_the_project_the_oldest_first() -> None:
+    lines = [command_line(words, FOLDER) for words in (["compare", "M"], ["rank", "data"])]
+    assert commands(desk(("rank", "data"), ("compare", "M"))).splitlines() == lines
 
 
 def test_without_a_result_the_data_are_looked_at() -> None:
-    assert commands(desk()) == "run.py pysim data check data"
+    assert commands(desk()) == command_line(["data", "check", "data"], FOLDER)

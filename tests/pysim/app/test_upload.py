@@ -5,7 +5,7 @@ import hashlib
 import io
 import re
 import zipfile
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Sequence
 from pathlib import Path
 
 import pytest
@@ -92,9 +92,16 @@ def test_a_data_set_is_taken_over_with_its_folders(project: Project, as_zip: boo
     assert list((project.folder / "uploads").iterdir()) == []
 
 
-def test_bare_logs_wait_for_their_description(project: Project) -> None:
-    adopted = adopt(batch(project, {"logs/a.csv": b"0,1\n", "logs/b.csv": b"0,1\n"}), project)
-    assert (adopted.kind, adopted.text.split(";")[0]) == ("logs", "2 logs without a dataset.toml")
+@pytest.mark.parametrize(
+    ("beside", "libraries"), [((), ()), (("Lib/package.mo", "Lib/b.csv", "a.txt"), ("model/Lib",))]
+)
+def test_bare_logs_wait_for_their_description(
+    project: Project, beside: Sequence[str], libraries: Sequence[str]
+) -> None:
+    files = dict.fromkeys([f"logs/{one}" for one in ("a.csv", "b.csv", *beside)], b"0,1\n")
+    adopted = adopt(batch(project, files), project)
+    assert (adopted.kind, adopted.libraries) == ("logs", libraries)
+    assert f"{3 if beside else 2} logs without a dataset.toml" in adopted.text
     assert (project.data / "a.csv").is_file()
 
 

@@ -58,7 +58,7 @@ def test_what_was_chosen_stays_and_the_others_follow(place: LawPlace) -> None:
 def test_a_law_of_another_variable_has_no_curve_but_its_parameters(place: LawPlace) -> None:
     found = typed_law("-k_3*x^3", place, learned(np.tanh))
     assert found.curve is None
-    assert found.ranges == {"k_3": (0.0, 10.0, 1.0, "N/m3")}
+    assert found.ranges == {"k_3": (0.0, 1000.0, 1.0, "N/m3")}  # a guess may be far off
     assert typed_law("-k_3*x^3", place).ranges == found.ranges
 
 

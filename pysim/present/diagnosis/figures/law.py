@@ -78,9 +78,10 @@ def law_chart(law: Mapping[str, Any], written: Sequence[float] | None = None) ->
     if written is not None:
         look = {"mode": "lines", "name": "as written", "line": {"color": "@base", "width": 2.5, "dash": "dash"}}
         lines.append({"x": x, "y": [v * scale_out for v in written], **look})
+    where = plain(law["slot"] + (f" / {law['factor']}" if law["factor"] else ""))
     return chart(
         lines,
         xaxis=axis(f"{plain(law['depends_on'])} ({unit_text(unit_in)})"),
-        yaxis=axis(f"missing at {plain(law['slot'])} ({unit_text(unit_out)})"),
+        yaxis=axis(f"missing at {where} ({unit_text(unit_out)})"),
         shapes=[level_line(0, "@line", 1)],
     )
