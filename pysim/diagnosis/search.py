@@ -367,7 +367,8 @@ class Search:
 
     def _ordered(self, compared: list[Compared]) -> list[Compared]:
         """By gain less penalty, one lambda for all, of those that gain much; with what is not told from the first. Of
-        those that leave as good as nothing the one with the fewest parameters is first: more only bends its law."""
+        those that gain alike and leave as good as nothing the one with the fewest parameters is first: more only bends
+        its law."""
         good = [one for one in compared if one.test.gain > 0]
         if not good:
             return []
@@ -381,7 +382,8 @@ class Search:
             for one in good
         ]
         scored.sort(key=lambda one: -one.test.penalised)
-        enough = [one for one in scored if self.is_done(one.fit)] if self.is_done(scored[0].fit) else scored[:1]
+        alike = (1 - self.settings.small) * scored[0].test.gain
+        enough = [one for one in scored if one.test.gain >= alike and self.is_done(one.fit)] or scored[:1]
         first = min(enough, key=lambda one: one.test.df)
         before = [one.added for one in enough if one.test.penalised > first.test.penalised]
         ties = tuple(dict.fromkeys((*before, *self._ties(first, scored))))

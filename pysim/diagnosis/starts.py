@@ -112,7 +112,7 @@ class Starts:
 
 def _begins_off(one: Screened) -> bool:
     """Whether an effect has slopes where it is as good as off."""
-    return not (one.effect.limit or one.effect.bypass or one.candidate.has_events)
+    return not (one.effect.limit or one.candidate.has_events)
 
 
 def with_sensor_errors(present: FinalFit, models: Models) -> list[FinalFit]:
