@@ -366,9 +366,11 @@ class Search:
         return rivals.gain_test(smaller, larger, gain, df, size, choices or max(self.tried, 1), self.settings)
 
     def _ordered(self, compared: list[Compared]) -> list[Compared]:
-        """By gain less penalty, one lambda for all, of those that gain much; with what is not told from the first. Of
-        those that gain alike and leave as good as nothing the one with the fewest parameters is first: more only bends
-        its law."""
+        """By gain less penalty, the first with its ties.
+
+        All count with the correlation of those that gain much. Where several gain as much and leave next to nothing, the
+        one with the fewest parameters is first: what another gains more is the shape of the law.
+        """
         good = [one for one in compared if one.test.gain > 0]
         if not good:
             return []
