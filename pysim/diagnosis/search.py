@@ -368,8 +368,8 @@ class Search:
     def _ordered(self, compared: list[Compared]) -> list[Compared]:
         """By gain less penalty, the first with its ties.
 
-        All count with the correlation of those that gain much. Where several gain as much and leave next to nothing, the
-        one with the fewest parameters is first: what another gains more is the shape of the law.
+        All count with the correlation of those that gain much. Where several gain as much and leave next to nothing,
+        the one with the fewest parameters is first: what another gains more is the shape of the law.
         """
         good = [one for one in compared if one.test.gain > 0]
         if not good:
