@@ -35,8 +35,8 @@ class Settings:
         source="measured: twice the largest seen",
     )  # fmt: skip
     off: float = setting(
-        0.02, unit="1", meaning="share of the size that looked best at which an effect is as good as off, and beside "
-        "the kink that its law may have there", source="measured: slopes of plays and dead bands",
+        0.02, unit="1", meaning="share of the size that looked best at which an effect is as good as off, yet has "
+        "the slopes that its law has beside a kink there", source="measured: at exactly 0 a Stribeck friction has none",
     )  # fmt: skip
     finalists: int = setting(
         3, unit="1", meaning="candidates of a step that are refitted to the end", source="measured: known-answers"
@@ -71,7 +71,7 @@ class Settings:
     )  # fmt: skip
     steps: int = setting(
         100, unit="1", meaning="steps per sample of the longest log, after which a run is given up",
-        source="measured: a play at 1e-8 takes 40",
+        source="measured: a pump with a play at 1e-8 takes 10",
     )  # fmt: skip
     few: int = setting(1000, unit="1", meaning="samples that a log counts as having at least", source="one period")
     refinements: int = setting(3, unit="1", meaning="tenfold refinements at most", source="to 1e-8, near rounding")

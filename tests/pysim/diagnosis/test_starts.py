@@ -1,29 +1,34 @@
 """Which effects are refitted, and from where, on a mass with a spring."""
 
 from collections.abc import Mapping
+from pathlib import Path
 
 import pytest
 
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.refit import FinalFit, Runner, race
-from pysim.diagnosis.screen import best_of_each, screen
+from pysim.diagnosis.screen import Sizes, best_of_each, screen
+from pysim.diagnosis.session import session
 from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts
-from tests.pysim.diagnosis.plants import FINE, given, measured, refitted
+from pysim.effects import read_catalogue
+from pysim.workflow.variants import Variants
+from tests.known_answers.plants import PLANTS
+from tests.pysim.diagnosis.plants import FINE, STOPS, given, measured, refitted
 
 
-def runners(models: Models, fit: FinalFit, *, near: bool) -> list[Runner]:
+def runners(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = None) -> list[Runner]:
     def beside(transient: bool) -> FinalFit:
         return fit
 
-    found = screen(models, beside, FINE)
+    found = screen(models, beside, FINE, sizes)
     return Starts(beside, FINE, near, Settings()).runners(found, [], len(best_of_each(found)))
 
 
-def begun(models: Models, fit: FinalFit, *, near: bool) -> Mapping[str, list[FinalFit]]:
+def begun(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = None) -> Mapping[str, list[FinalFit]]:
     """Where each effect's refits begin."""
     starts: dict[str, list[FinalFit]] = {}
-    for runner in runners(models, fit, near=near):
+    for runner in runners(models, fit, near=near, sizes=sizes):
         start = runner.start()
         starts.setdefault(start.names[0], []).append(start)
     return starts
@@ -39,6 +44,23 @@ def test_an_effect_is_refitted_though_what_it_leaves_out_colours_the_residual() 
 def test_near_the_floor_nothing_is_refitted_where_nothing_is_missing() -> None:
     models = Models(given("mass", measured("mass")))
     assert begun(models, refitted(models), near=True) == {}
+
+
+def test_far_from_the_floor_a_limit_begins_at_the_size_that_is_nearest_the_measurements(tmp_path: Path) -> None:
+    """The model's parameters as given, its ends where they stop least."""
+    library = tmp_path / "Stops.mo"
+    library.write_text(STOPS, encoding="utf-8")
+    own = Variants("Mass.Design", (PLANTS["mass"].library, library))
+    data = measured("mass", length=4.0)
+    models = Models(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
+    fit = refitted(models)
+    sizes = Sizes(limits=(0.92, 0.55, 0.2))
+    tried = {one.tried["inverse_x_m"] for one in screen(models, lambda transient: fit, FINE, sizes)}
+    starts = begun(models, fit, near=False, sizes=sizes)["stops.ends"]
+    assert len(starts) == 2
+    nearest = starts[1].values["stops.ends", "inverse_x_m"]
+    assert nearest in tried
+    assert nearest == min(tried)  # the plant has no ends: the widest limit is nearest
 
 
 def test_an_effect_begins_as_good_as_off_and_only_what_promises_enough_goes_on() -> None:
