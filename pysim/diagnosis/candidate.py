@@ -92,6 +92,10 @@ class Candidate:
         own = {f"{self.places[e.name]}.{p.name}": (e.name, p.name) for e in self.effects for p in e.parameters}
         return tuple(own.get(key, key) for key in self.space.keys)
 
+    def keeps_state(self, name: str) -> bool:
+        """Whether an effect's law has a state of its own."""
+        return any(state.startswith(f"{self.places[name]}.") for state in self.model.abilities.states)
+
     def residuals(self, simulation: Simulation, use: str = "fit") -> WeightedResiduals:
         """What is counted of the records of one use."""
         return replace(self.problem.residuals(NOISE, simulation, use=use), nuisances=self.nuisances)
@@ -183,6 +187,28 @@ class Models:
         kept = {effect.name: places[effect.name] for effect in effects}
         problem = replace(problem, space=space)
         return Candidate(effects, tuple(nuisances), problem, kept, transient, has_events, watch=self.watch)
+
+    def amounts(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = ()) -> Iterator[Candidate]:
+        """The model with these effects and amounts of others: in one all that are built together and keep no state,
+        each of the others alone; none that are limits, or would be beside events."""
+        left = [effect for effect in self.session.catalogue if not (effect in effects or effect.limit)]
+        while left:
+            first = left.pop(0)
+            try:
+                alone = self.of((*effects, first), nuisances)
+            except BadInput:
+                continue
+            if alone.has_events:
+                continue
+            if alone.keeps_state(first.name):
+                yield alone
+            else:
+                built = self._with_others((*map(searched, effects), searched(first)))
+                together = [effect for effect in left if searched(effect) in built]
+                whole = self.of((*effects, first, *together), nuisances)
+                more = [effect for effect in together if not whole.keeps_state(effect.name)]
+                left = [effect for effect in left if effect not in more]
+                yield self.of((*effects, first, *more), nuisances)
 
     def alone(
         self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = (), *, transient: bool = False

@@ -26,7 +26,7 @@ from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
 from pysim.diagnosis.tone import tone
 from pysim.identify.greybox import Simulation
-from pysim.types import BadInput, Effect, NextTest, Note, NoteCode, Record
+from pysim.types import BadInput, Effect, NextTest, Note, NoteCode
 from pysim.types.answer import PRIOR, REFIT, Diagnosis, ErrorStep, Left
 
 Named = Sequence[tuple[str, FinalFit]]  # models of the error history, by the names of their steps
@@ -146,11 +146,7 @@ def _needs_class(session: Session) -> None:
 def _search(session: Session, progress: Say | None, checkpoint: Path | None, step: str) -> Search:
     kept = Checkpoint(checkpoint, whose(session, step))
     say = Progress(progress or (lambda told: None))
-    simulation = Simulation(workers=session.workers)
-    samples = max((one.data.time.size for one in session.dataset.logs() if isinstance(one.data, Record)), default=0)
-    steps = session.settings.steps * max(samples, session.settings.few)
-    simulation = replace(simulation, solver=replace(simulation.solver, max_steps=steps))
-    return Search(Models(session), simulation, session.settings, say, kept)
+    return Search(Models(session), Simulation(workers=session.workers), session.settings, say, kept)
 
 
 @dataclass(frozen=True)

@@ -234,7 +234,7 @@ class Runner:
         start: simulates it where its refit begins.
         before: cost of the present model, compared as the rival is.
         most: nats that it can gain; infinite where nobody knows.
-        beside: whether it starts as good as where the present model stands, so that its slopes there tell what it may
+        beside: whether its start is known, as good as where the present model stands: slopes there say what it may
             gain, within orders of magnitude.
     """
 
@@ -257,11 +257,13 @@ def race(
         finish: takes one of the best to its end.
     """
     running, resting, gained = list[tuple[FinalFit, float]](), list[tuple[FinalFit, float]](), 0.0
+    beside = [(runner.start(), runner.before) for runner in runners if runner.beside]
+    promised = max([0.0, *(-_promise(one) for one in beside if one[0].good)])
     for runner in runners:
         fit = runner.start() if runner.most >= settings.promising * gained else None
         if fit is None or not fit.good:
             continue
-        if runner.beside and runner.before - fit.expected < settings.small * gained:
+        if runner.beside and -_promise((fit, runner.before)) < settings.small * max(promised, gained):
             resting.append((fit, runner.before))
             continue
         running.append((advance(fit, 1), runner.before))

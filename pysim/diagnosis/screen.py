@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnosis.candidate import Candidate, Key, Models, Values
-from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.refit import FinalFit, begin, begun, exact
 from pysim.diagnosis.rivals import Rows, of, rows
 from pysim.identify.greybox import Point, Simulation
 from pysim.identify.greybox.identifiability import EXACT
@@ -30,9 +30,11 @@ class Screened:
     Args:
         candidate: the present model with the effect.
         values: where a refit may begin.
-        tried: values of the effect's parameters at which it was simulated.
+        tried: values of the effect's parameters that `change` is for.
         gain: nats that it promises, refitting allowed for, to first order.
         change: (n_r,) by which it changes the residual, in the units of the channels, refitting allowed for.
+        start: the refit at its beginning, as good as off; None where that is still to be simulated.
+        before: cost of the present model, simulated as the start is, nats.
     """
 
     candidate: Candidate
@@ -40,6 +42,8 @@ class Screened:
     tried: Mapping[str, float]
     gain: float
     change: Array = field(repr=False)
+    start: FinalFit | None = field(default=None, repr=False)
+    before: float = math.nan
 
     @property
     def effect(self) -> Effect:
@@ -60,33 +64,45 @@ class Sizes:
     """At which sizes an effect is tried, over its usual one.
 
     Args:
+        off: of an amount as good as none, where slopes are those beside none: at none a Stribeck friction has none.
+        kept: of the same with a state of its own: smaller ones no step control sees, and slopes err.
         usual: of an amount.
-        bypassed: of one whose off is a limit of its equations.
         limits: of a limit, over the largest value that the limited variable reaches.
         limits_unknown: of a limit of which that is not known, over its usual value.
         moved: what initial states may still take, as a share of what the effect does, above which they move along.
     """
 
+    off: float = 1e-5
+    kept: float = 0.02
     usual: tuple[float, ...] = (0.3, 1.0)
-    bypassed: tuple[float, ...] = (0.5, 2.0)
     limits: tuple[float, ...] = (0.92, 0.75, 0.55, 0.35, 0.2, 0.1)
     limits_unknown: tuple[float, ...] = (0.25, 0.6, 1.0, 2.0)
     moved: float = 0.02
 
 
 def screen(
-    models: Models, beside: Callable[[bool], FinalFit], simulation: Simulation, sizes: Sizes | None = None
+    models: Models,
+    beside: Callable[[bool], FinalFit],
+    simulation: Simulation,
+    sizes: Sizes | None = None,
+    *,
+    fits: Simulation | None = None,
 ) -> list[Screened]:
-    """Every effect of the catalogue at each size in the present model, the best gain first.
+    """Every effect of the catalogue in the present model, the best gain first.
 
-    Effects that cannot be built or simulated are left out; `models.refused` says which.
+    Of amounts one run gives the slopes where all are as good as off; other effects are simulated at each size. Effects
+    that cannot be built or simulated are left out, and `models.refused` says which.
 
     Args:
         beside: the present model, compared by orbits (False) or by transients (True).
+        simulation: of an effect at a size.
+        fits: of refits, which begin at the slopes; as `simulation` where None.
     """
-    found: list[Screened] = []
+    sizes = sizes or Sizes()
     present = beside(False)
     have = {effect.name for effect in present.candidate.effects}
+    found = list(_by_slopes(models, beside, fits or simulation, sizes))
+    have |= {one.effect.name for one in found}
     befores: dict[bool, tuple[FinalFit, Rows, Array]] = {}
     for effect in models.session.catalogue:
         if effect.name in have:
@@ -99,20 +115,19 @@ def screen(
         if candidate.transient not in befores:
             present = beside(candidate.transient)
             befores[candidate.transient] = present, of(present), _span(of(present))
-        before, span = befores[candidate.transient][1:]
-        own = list(
-            _screened(candidate, effect, befores[candidate.transient][0], before, span, simulation, sizes or Sizes())
-        )
+        own = list(_screened(candidate, effect, *befores[candidate.transient], simulation, sizes))
         if not own:
             models.refused.setdefault(effect.name, "the model could not be simulated with it")
         found += own
     return sorted(found, key=lambda one: -one.gain)
 
 
-def screened(candidate: Candidate, effect: Effect, present: FinalFit, simulation: Simulation) -> list[Screened]:
+def screened(
+    candidate: Candidate, effect: Effect, present: FinalFit, simulation: Simulation, sizes: Sizes | None = None
+) -> list[Screened]:
     """One effect at each of its sizes; none where the model cannot be simulated with it."""
     before = of(present)
-    return list(_screened(candidate, effect, present, before, _span(before), simulation, Sizes()))
+    return list(_screened(candidate, effect, present, before, _span(before), simulation, sizes or Sizes()))
 
 
 def best_of_each(screened: Sequence[Screened]) -> list[Screened]:
@@ -121,6 +136,46 @@ def best_of_each(screened: Sequence[Screened]) -> list[Screened]:
     for one in screened:
         best.setdefault(one.effect.name, one)
     return list(best.values())
+
+
+def _by_slopes(
+    models: Models, beside: Callable[[bool], FinalFit], simulation: Simulation, sizes: Sizes
+) -> Iterator[Screened]:
+    """Effects that are amounts, with the beginnings of their refits."""
+    first = beside(False).candidate
+    for own in models.amounts(first.effects, first.nuisances):
+        present, more = beside(own.transient), own.effects[len(first.effects) :]
+        keeps = own.keeps_state(more[0].name)
+        off = {k: v for effect in more for k, v in _at_share(effect, sizes.kept if keeps else sizes.off).items()}
+        there = begin(own, {**present.values, **off}, simulation, present)
+        if not there.good:
+            continue
+        before, after = of(present), of(there)
+        span, residual = _span(before), before.residual / before.level
+        for effect in more:
+            candidate, usual = models.of((*first.effects, effect), first.nuisances), _at_share(effect, 1.0)
+            apart = own.at({**present.values, **off, **usual}) - there.point.x
+            change = after.jacobian @ apart * (after.level / before.level)
+            left = change - span @ (span.T @ change)
+            size = float(left @ left)
+            if not size > EXACT * float(change @ change):
+                continue
+            amount = -float(left @ residual) / size
+            gain = 0.5 * amount**2 * size if amount > 0 or _signed(effect) else 0.0
+            columns = [own.keys.index(key) for key in candidate.keys]
+            start = begun(candidate, there.point.with_columns(columns), simulation, exact(candidate, simulation))
+            tried = {p.name: usual.get((effect.name, p.name), p.default) for p in effect.parameters}
+            cost = (present if keeps else there).point.cost
+            yield Screened(candidate, start.values, tried, gain, left * before.level, start, cost)
+
+
+def _at_share(effect: Effect, share: float) -> dict[Key, float]:
+    """Its strengths at a share of the way from off to their usual values."""
+    return {(effect.name, p.name): _share_of(p, share) for p in effect.strengths}
+
+
+def _share_of(p: EffectParameter, share: float) -> float:
+    return _within(p, (p.off or 0.0) + share * p.nominal)
 
 
 def _screened(
@@ -207,9 +262,9 @@ def _values(effect: Effect, largest: float | None, sizes: Sizes) -> Iterator[dic
         for share in sizes.limits:
             yield {**declared, limit.name: _within(limit, 1 / (share * largest))}
         return
-    shares = sizes.limits_unknown if limit else sizes.bypassed if effect.bypass else sizes.usual
+    shares = sizes.limits_unknown if limit else sizes.usual
     for share in shares:
-        yield {**declared, **{p.name: _within(p, (p.off or 0.0) + share * p.nominal) for p in effect.strengths}}
+        yield {**declared, **{p.name: _share_of(p, share) for p in effect.strengths}}
 
 
 def _amounted(effect: Effect, tried: Mapping[str, float], amount: float) -> dict[str, float]:

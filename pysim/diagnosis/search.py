@@ -23,6 +23,7 @@ from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts, with_sensor_errors
 from pysim.identify.greybox import Simulation
 from pysim.identify.greybox.beginning import settled_initial_states
+from pysim.simulate import simulate_many
 from pysim.types import BadInput, Effect, Trial
 from pysim.types.answer import Detectable, GainTest, Verdict
 
@@ -150,9 +151,12 @@ class Search:
             return converged(first, self.fine)
 
         base = self._fine_enough(self._once("base", found, candidate))
-        self.fine = base.simulation
-        self.rough = self.floors.with_(base).roughest(base, self.settings.fine).simulation
-        return self._keep(base)
+        rough = self.floors.with_(base).roughest(base, self.settings.fine)
+        most = self.settings.patience * _steps(rough)
+        self.fine, self.rough = (
+            replace(own, solver=replace(own.solver, max_steps=most)) for own in (base.simulation, rough.simulation)
+        )
+        return self._keep(replace(base, simulation=self.fine))
 
     def _fine_enough(self, fit: FinalFit) -> FinalFit:
         """A fit integrated so finely that the error is small beside the floor, and that finer runs promise hardly more,
@@ -190,10 +194,10 @@ class Search:
         return tuple(self._tables.values())
 
     def detectable(self, fit: FinalFit) -> tuple[Detectable, ...]:
-        """From which size on each effect that a model lacks would have been found beside it.
+        """From which size on each effect that a model lacks would have been found beside it, but for rare chance.
 
-        An amount counts as what it does at the size that was tried, times its share of that; how a limit acts changes
-        with its size, so that none is given for it.
+        An amount counts as what it does at a size, times its share of that; how a limit acts changes with its size, so
+        that none is given for it.
         """
         table = self._tables.get(frozenset(fit.candidate.labels))
         if table is None or not self.floors.within(fit, self.settings.near):
@@ -205,7 +209,8 @@ class Search:
             df, inflated = len(one.effect.parameters), rivals.effective(left, one.change)
             chance = self.settings.false_alarm / max(self.tried, 1)
             least = rivals.least_gain(chance, df, count, fit.candidate.size + df, inflated)
-            share = math.sqrt(2 * least / float(np.sum((one.change / left.level) ** 2)))
+            sure = math.sqrt(2 * least) + self.settings.sure * math.sqrt(inflated)
+            share = sure / float(np.linalg.norm(one.change / left.level))
             sizes = {p.name: share * abs(one.tried[p.name] - (p.off or 0.0)) for p in one.effect.strengths}
             found.append(Detectable(one.effect.name, sizes, {p.name: p.unit for p in one.effect.strengths}))
         return tuple(found)
@@ -318,7 +323,7 @@ class Search:
         beside = partial(self._beside, present)
         near = self.floors.within(present, self.settings.near)
         starts = Starts(beside, self.fine if near else self.rough, near, self.settings)
-        sizes = screen(self.models, beside, self.rough)
+        sizes = screen(self.models, beside, self.rough, fits=starts.simulation)
         tried = best_of_each(sizes)
         sensors = with_sensor_errors(starts.here(present.candidate.transient), self.models)
         self.tried = max(self.tried, len(tried) + len(sensors))
@@ -506,6 +511,15 @@ class Search:
         if key not in self._fits or fit.point.cost < self._fits[key].point.cost:
             self._fits[key] = fit
         return self._fits[key]
+
+
+def _steps(fit: FinalFit) -> int:
+    """That the longest run takes."""
+    overrides = fit.candidate.held(fit.values).fixed
+    runs = [run.over_time(overrides, None) for run in fit.candidate.residuals(fit.simulation).runs]
+    longest = max(runs, key=lambda run: float(run.times[-1]) - run.start)
+    (record,) = simulate_many(fit.candidate.model, [longest], solver=fit.simulation.solver)
+    return record.statistics["steps"] + record.statistics["rejected"]
 
 
 def _key(candidate: Candidate) -> tuple[frozenset[str], bool]:

@@ -34,9 +34,9 @@ class Settings:
         4.0, unit="1", meaning="factor by which a first-order gain may be too small near the floor",
         source="measured: twice the largest seen",
     )  # fmt: skip
-    off: float = setting(
-        0.02, unit="1", meaning="share of the size that looked best at which an effect is as good as off, yet has "
-        "the slopes that its law has beside a kink there", source="measured: at exactly 0 a Stribeck friction has none",
+    sure: float = setting(
+        2.0, unit="1", meaning="standard deviations beyond its threshold from which on an effect is sure to be seen",
+        source="one in forty is missed",
     )  # fmt: skip
     finalists: int = setting(
         3, unit="1", meaning="candidates of a step that are refitted to the end", source="measured: known-answers"
@@ -69,11 +69,10 @@ class Settings:
         0.1, unit="1", meaning="error of the integration over the floor, above which it is refined",
         source="adds half a percent to what is left",
     )  # fmt: skip
-    steps: int = setting(
-        100, unit="1", meaning="steps per sample of the longest log, after which a run is given up",
-        source="measured: a pump with a play at 1e-8 takes 10",
+    patience: int = setting(
+        100, unit="1", meaning="steps over those of the base model's longest run, after which a run is given up",
+        source="measured: a pump with a play takes 75 times those, at 1e-8",
     )  # fmt: skip
-    few: int = setting(1000, unit="1", meaning="samples that a log counts as having at least", source="one period")
     refinements: int = setting(3, unit="1", meaning="tenfold refinements at most", source="to 1e-8, near rounding")
     unexplained: float = setting(
         0.5, unit="1", meaning="residual over the signal's standard deviation from which on no model is complete",

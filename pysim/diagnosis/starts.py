@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from functools import partial
 
 from pysim.diagnosis import rivals
-from pysim.diagnosis.candidate import Candidate, Key, Models, Values
+from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.refit import FinalFit, Runner, begin, begun, cost_at, exact
 from pysim.diagnosis.screen import Screened, best_of_each, own_values
 from pysim.diagnosis.settings import Settings
@@ -78,7 +78,7 @@ class Starts:
         best: dict[str, tuple[float, Candidate, Values]] = {}
         for one in sizes:
             name, candidate, values = one.effect.name, one.candidate, own_values(one)
-            if _begins_off(one) or (name in best and best[name][2] == values):
+            if one.start is not None or (name in best and best[name][2] == values):
                 continue
             cost = cost_at(candidate, values, self.simulation, self.beside(candidate.transient))
             if math.isfinite(cost) and (name not in best or cost < best[name][0]):
@@ -96,23 +96,16 @@ class Starts:
     def _of_effect(self, one: Screened) -> Runner:
         """As good as off, beside the present model, whose slopes there tell how far to go; at the size that looked best
         where off has no slopes."""
-        effect, most = one.effect, self._most(one.gain)
-        if not _begins_off(one):
+        start, most = one.start, self._most(one.gain)
+        if start is None:
             return self._runner(one.candidate, one.values, most)
-        off: dict[Key, float] = {(effect.name, p.name): p.off or 0.0 for p in effect.strengths}
-        least = {key: value + self.settings.off * (one.values[key] - value) for key, value in off.items()}
-        return replace(self._runner(one.candidate, {**one.values, **least}, most), beside=True)
+        return Runner(lambda: start, one.before, most, beside=True)
 
     def _of_sensor(self, fit: FinalFit) -> Runner:
         """A sensor's error gains no more than it promises beyond what the model promises without it."""
         here = self.here(fit.candidate.transient)
         itself = begun(here.candidate, here.point, here.simulation, here.evaluate)
         return Runner(lambda: fit, here.point.cost, self._most(itself.expected - fit.expected), beside=True)
-
-
-def _begins_off(one: Screened) -> bool:
-    """Whether an effect has slopes where it is as good as off."""
-    return not (one.effect.limit or one.candidate.has_events)
 
 
 def with_sensor_errors(present: FinalFit, models: Models) -> list[FinalFit]:

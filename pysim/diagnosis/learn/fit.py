@@ -15,6 +15,7 @@ from pysim.diagnosis.learn.laws import Law
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.learn.screening import LawModel, Ranked
 from pysim.diagnosis.refit import FinalFit, advance, exact
+from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import GaussNewton, Point, Simulation
 from pysim.identify.greybox.residuals import Carried, with_rows
 from pysim.types import Estimate
@@ -160,16 +161,23 @@ def moved(one: LawFit, points: int) -> LawFit:
     if not one.fit.good:
         return one
     one = replace(one, fit=advance(one.fit, points))
-    smooth = one.smoothness.moved(one.gram, one.values)
-    return _beginning(one.law, one.knots, one.unit, smooth, one.fit.candidate, one.bare, one.fit.simulation)
+    smooth, own = one.smoothness.moved(one.gram, one.values), one.fit
+    found = _beginning(one.law, one.knots, one.unit, smooth, own.candidate, one.bare, own.simulation)
+    if own.state.outcome is not None or found.fit.state.outcome is not None:
+        return found
+    memory = {**own.state.memory, "expected": found.fit.state.memory["expected"]}  # steps as long as they were
+    return replace(found, fit=replace(found.fit, state=replace(found.fit.state, memory=memory)))
 
 
 def settled(one: LawFit, points: int) -> LawFit:
     """On until neither the search nor the smoothness moves any more, so many points between looks at the latter."""
     for _ in range(_ROUNDS):
-        before = one.edf
+        edf, cost = one.edf, one.fit.point.cost
         one = moved(one, points)
-        if not one.fit.good or (one.fit.state.outcome is not None and abs(one.edf - before) < _SETTLED):
+        if not one.fit.good:
+            break
+        stands = one.fit.state.outcome is not None or cost - one.fit.point.cost < Settings().anew
+        if stands and abs(one.edf - edf) < _SETTLED:
             break
     return one
 

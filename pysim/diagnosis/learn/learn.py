@@ -13,11 +13,12 @@ from pysim.diagnosis.learn.basis import closer
 from pysim.diagnosis.learn.curve import curve_basis
 from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, settled, started
 from pysim.diagnosis.learn.laws import TIME, Place, Terms, places
-from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, patient, screen, seen
+from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, screen, seen
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
+from pysim.identify.greybox import Simulation
 from pysim.types import BadInput
 from pysim.types.answer import GainTest, Verdict
 
@@ -127,7 +128,7 @@ class Learner:
         except BadInput as error:
             self._refused[place.name] = str(error)
             return None
-        return LawModel(place, count, self._rough, model, patient(self._rough))
+        return LawModel(place, count, self._rough, model, self._rough.simulation)
 
     def _raced(self, chosen: Sequence[tuple[LawModel, Ranked]]) -> list[LawFit]:
         """The laws some points on with every parameter, those that promise most some more; the best first."""
@@ -172,10 +173,20 @@ class Learner:
             if not again.fit.good or self._scored(again) >= self._scored(best):
                 break
             best, model = again, finer
-        solver = replace(self._present.simulation.solver, max_steps=10 * rough.solver.max_steps)
-        fine, point = replace(self._present.simulation, solver=solver), best.fit.point
-        again = started(model, best.law, best.knots, best.unit, best.smoothness, point.x, fine, point.carried)
-        return ended(settled(again, settings.heat)) if again.fit.good else one
+        for simulation in self._finer(rough):
+            point = best.fit.point
+            again = started(model, best.law, best.knots, best.unit, best.smoothness, point.x, simulation, point.carried)
+            if not again.fit.good:
+                return one
+            best = ended(settled(again, settings.heat))
+        return best
+
+    def _finer(self, rough: Simulation) -> list[Simulation]:
+        """Ten times finer each, up to the runs of what is kept: a search that crawls does so by cheap ones."""
+        found = [self._present.simulation]
+        while found[0].solver.rtol < 0.1 * rough.solver.rtol:
+            found.insert(0, found[0].finer(10.0).searching())
+        return found
 
     def _share(self, one: LawFit) -> float:
         """What a law takes of the sum of squares over the floors that could be avoided."""

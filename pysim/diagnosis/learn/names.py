@@ -16,7 +16,7 @@ from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.learn.fit import LawFit, ended, settled, started
 from pysim.diagnosis.learn.laws import Law, Terms
-from pysim.diagnosis.learn.screening import LawModel, patient
+from pysim.diagnosis.learn.screening import LawModel
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.refit import FinalFit, begin
 from pysim.diagnosis.session import Session
@@ -86,7 +86,7 @@ def _without(session: Session, law: LawFit, effect: Effect, alone: Alone, settin
         model = session.build_law(effects, terms)
     except BadInput:
         return None
-    made = LawModel(law.law.place, law.knots.size, present, model, patient(present))
+    made = LawModel(law.law.place, law.knots.size, present, model, present.simulation)
     x = np.append(candidate.at(values), law.values)
     found = started(made, law.law, law.knots, law.unit, law.smoothness, x, law.fit.simulation)
     return ended(settled(found, settings.heat)) if found.fit.good else None

@@ -31,9 +31,8 @@ _RUNS, _SAMPLES = 24, 4000
 # What two arguments may differ by, over their range, to count as the same up to scale and offset.
 _SAME = 1e-4
 _BOTH = 0.05  # share of the samples that a sign must have on either side
-# Unit of coefficients before anything is known of them, so small that any model answers to it in proportion; and steps
-# of a run over those without a law, from which on it is given up.
-_LITTLE, _PATIENCE = 1e-12, 20
+# Unit of coefficients before anything is known of them, so small that any model answers to it in proportion.
+_LITTLE = 1e-12
 _REWEIGHTED = 3  # times that levels follow what a law leaves
 
 
@@ -150,17 +149,6 @@ def seen(present: FinalFit, model: Model, places: Sequence[Place]) -> dict[str, 
         return {}
     found = {name: np.concatenate([r[name] for r in records]) for name in names}
     return {**found, TIME: np.concatenate([r.time for r in records])}
-
-
-def patient(fit: FinalFit) -> Simulation:
-    """The fit's simulation, whose runs end as failed once they take far more steps than those of the fit."""
-    residuals, overrides = fit.candidate.residuals(fit.simulation), fit.candidate.held(fit.values).fixed
-    runs = [run.over_time(overrides, None) for run in residuals.runs]
-    longest = sorted(runs, key=lambda run: float(run.times[-1]) - run.start)[-1:]
-    records = simulate_many(fit.candidate.model, longest, solver=fit.simulation.solver)
-    most = max((record.statistics["steps"] + record.statistics["rejected"] for record in records), default=0)
-    solver = fit.simulation.solver
-    return replace(fit.simulation, solver=replace(solver, max_steps=max(_PATIENCE * int(most), 1000)))
 
 
 def distinct(places: Sequence[Place], signals: Mapping[str, Array]) -> list[Law]:

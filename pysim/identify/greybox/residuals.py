@@ -110,6 +110,11 @@ class Point:
         slices = [slice(first, first + ROWS) for first in range(0, max(self.residual.size, 1), ROWS)]
         return triangle(np.column_stack([self.jacobian[own], self.residual[own]]) for own in slices)
 
+    def with_columns(self, columns: Sequence[int]) -> Point:
+        """The same where only some of the parameters are free, in this order."""
+        steps = tuple(step if step is None else (step[0], step[1][:, columns]) for step in self.steps)
+        return replace(self, x=self.x[columns], jacobian=self.jacobian[:, columns], steps=steps)
+
     def carried_to(self, x: Array, share: float = 1.0) -> Carried:
         """What goes along with another point x (n,), to first order; `share` of the step of what is free here."""
         if not self.steps:

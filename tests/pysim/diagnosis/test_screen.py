@@ -11,7 +11,7 @@ import pytest
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.refit import FinalFit, begin, converged
-from pysim.diagnosis.screen import Screened, Sizes, best_of_each, screen
+from pysim.diagnosis.screen import Screened, Sizes, best_of_each, screen, screened
 from pysim.diagnosis.session import session
 from pysim.effects import read_catalogue
 from pysim.workflow.variants import Variants
@@ -31,47 +31,63 @@ def base() -> FinalFit:
     return refitted(models())
 
 
-def screened(sizes: Sizes | None = None) -> dict[str, Screened]:
-    return {one.effect.name: one for one in best_of_each(screen(models(), lambda transient: base(), FINE, sizes))}
+def by_name() -> dict[str, Screened]:
+    return {one.effect.name: one for one in best_of_each(screen(models(), lambda transient: base(), FINE))}
+
+
+def at_size(size: float) -> Screened:
+    """A constant force at this share of its usual size."""
+    bias = next(effect for effect in models().session.catalogue if effect.name == "mass.bias")
+    (found,) = screened(models().of((bias,)), bias, base(), FINE, Sizes(usual=(size,)))
+    return found
 
 
 def test_of_a_linear_effect_it_foresees_what_a_refit_gains() -> None:
     """With levels held it promises half the fall of the squares over them; the refit gains n/2 times a logarithm."""
-    found = screened()["mass.bias"]
+    found = by_name()["mass.bias"]
     refit = converged(begin(found.candidate, found.values, FINE, base()))
     n = rivals.samples(base())
     assert base().point.cost - refit.point.cost == pytest.approx(-n / 2 * math.log(1 - 2 * found.gain / n), rel=0.03)
     assert refit.values["mass.bias", "F_b"] == pytest.approx(FORCE, abs=0.004)
 
 
-def test_at_whatever_size_a_linear_effect_is_tried_it_promises_the_same() -> None:
-    gains = [screened(Sizes(usual=(size,)))["mass.bias"].gain for size in (0.03, 0.3, 3.0)]
-    assert gains == pytest.approx([gains[0]] * 3, rel=0.02)
+def test_at_whatever_size_a_linear_effect_is_tried_it_promises_what_its_slope_does() -> None:
+    gains = [at_size(size).gain for size in (0.03, 0.3, 3.0)]
+    assert gains == pytest.approx([by_name()["mass.bias"].gain] * 3, rel=0.02)
 
 
 def test_the_refit_begins_near_the_amount_that_is_best() -> None:
     """Within a fifth and three times of what was tried, where first order is trusted."""
     nominal = 0.3
-    near = screened(Sizes(usual=(0.1,)))["mass.bias"].values["mass.bias", "F_b"]
-    assert near == pytest.approx(FORCE, abs=0.005)
-    far = screened(Sizes(usual=(0.01,)))["mass.bias"].values["mass.bias", "F_b"]
-    assert far == pytest.approx(-3 * 0.01 * nominal)
+    assert at_size(0.1).values["mass.bias", "F_b"] == pytest.approx(FORCE, abs=0.005)
+    assert at_size(0.01).values["mass.bias", "F_b"] == pytest.approx(-3 * 0.01 * nominal)
+
+
+def test_amounts_begin_along_with_others_where_each_would_begin_alone() -> None:
+    """One run of a model that has all of them gives each the cost and the promise that a run of its own does."""
+    starts = {name: one.start for name, one in by_name().items() if one.start is not None}
+    assert len(starts) > 2
+    for name, start in starts.items():
+        alone = begin(start.candidate, start.values, FINE, base())
+        assert start.point.x == pytest.approx(alone.point.x), name
+        assert start.point.cost == pytest.approx(alone.point.cost, abs=0.05), name
+        assert start.point.jacobian == pytest.approx(
+            alone.point.jacobian, abs=0.01 * np.abs(alone.point.jacobian).max()
+        )
+        assert start.expected == pytest.approx(alone.expected, abs=0.5), name
 
 
 def test_the_change_is_what_refitting_cannot_do() -> None:
     own = rivals.of(base())
-    for one in screened().values():
+    for one in by_name().values():
         along = own.jacobian.T @ (one.change / own.level)
         assert np.abs(along).max() < 1e-6 * np.linalg.norm(one.change / own.level) * np.linalg.norm(own.jacobian)
 
 
-def test_the_best_gain_comes_first_and_each_effect_once() -> None:
-    found = screen(models(), lambda transient: base(), FINE, Sizes(usual=(0.1, 0.3)))
+def test_the_best_gain_comes_first() -> None:
+    found = screen(models(), lambda transient: base(), FINE)
     assert [one.gain for one in found] == sorted((one.gain for one in found), reverse=True)
-    best = best_of_each(found)
-    assert len(best) == len({one.effect.name for one in found}) < len(found)
-    assert best[0].gain == found[0].gain
-    assert best[0].effect.name == "mass.bias"
+    assert found[0].effect.name == "mass.bias"
 
 
 def test_a_strength_of_one_sign_gains_nothing_against_it() -> None:

@@ -2,7 +2,7 @@ within HydraulicTestBench.Effects.Smooth;
 model CardSampling "Mean of a sampled output of the controller card"
   extends Interfaces.PartialSignal(y(start=0, fixed=true));
   parameter Types.Duration T_s(min=0, max=20e-3, nominal=4e-3) = 0 "Sampling time, 0 = off";
-  constant Types.Duration T_min = 1e-4 "Shortest sampling time";
+  constant Types.Duration T_min = 1e-6 "Shortest sampling time";
 protected
   final parameter Types.Duration T_held = max(T_s, T_min) "Sampling time in force";
   Real moved(start=0, fixed=true, nominal=1) "By what the output moves in a sampling time, at its rate";
