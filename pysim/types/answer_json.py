@@ -137,6 +137,7 @@ def law_data(law: LearnedLaw) -> Json:
         "share": law.share,
         "depends_on": law.argument,
         "factor": law.factor,
+        "sign_width": law.sign_width,
         "shape": shape,
         "formula": law.formula,
         "alike": law.alternatives,

@@ -105,7 +105,7 @@ def typed_law(
     kept = {name: own for name, own in chosen.items() if name in parameters}
     shaped = [EffectParameter(name, units.get(name) or "1", 0.0, 1.0, 1.0, 1.0, None) for name in parameters]
     law_class(class_name_of(_NAME), place.slot, law, shaped, with_standard(place.libraries))
-    curve = None if learned is None else _Curve.of(read, place, learned, parameters)
+    curve = None if learned is None else _Curve.of(read, place, learned)
     values = {name: float(own.usual) for name, own in kept.items()}
     free = [name for name in parameters if name not in values]
     values |= dict.fromkeys(free, 1.0) if curve is None else curve.followed(free, values, units)
@@ -127,6 +127,7 @@ class _Curve:
 
     Args:
         argument: of the curve, as the slot calls it.
+        turning: variable whose sign is the curve's factor, and its root mean square in the logs; "" without one.
         knots, wanted, spread: (m,) places, coefficients and widths of the band there.
         absorbed: (m, k) curves that the model's own parameters do as well.
         units: of argument and curve.
@@ -135,6 +136,7 @@ class _Curve:
     law: Law
     slot: Slot
     argument: str
+    turning: tuple[str, float]
     knots: Array
     wanted: Array
     spread: Array
@@ -142,25 +144,32 @@ class _Curve:
     units: tuple[str, str]
 
     @classmethod
-    def of(cls, law: Law, place: LawPlace, learned: Mapping[str, Any], parameters: Sequence[str]) -> _Curve | None:
+    def of(cls, law: Law, place: LawPlace, learned: Mapping[str, Any]) -> _Curve | None:
         """None where the law depends on more than the curve."""
+        from pysim.diagnosis.settings import LearnSettings
+
         argument = str(learned["depends_on"]).removeprefix(f"{place.slot.name}.")
         (gives, *others), shape = place.slot.gives, learned["shape"]
         needs = {name for name in law.needs(gives) if name in place.units}
-        if others or learned["factor"] or not needs <= {argument} or len(shape["argument"]) < 2:
+        factor = str(learned["factor"])
+        sign = factor[len("sign(") : -1] if factor.startswith("sign(") else ""
+        if others or (factor and not sign) or not needs <= {argument, sign} or len(shape["argument"]) < 2:
             return None
         units = str(shape["argument_unit"]), str(shape["unit"])
         knots, wanted, low, high = (np.array(shape[key], float) for key in ("argument", "value", "low", "high"))
         spread = np.maximum(high - low, 1e-6 * max(float(np.max(np.abs(wanted))), 1e-300))
         absorbed = np.array(shape.get("absorbed") or np.zeros((knots.size, 0)), float)
-        return cls(law, place.slot, argument, knots, wanted, spread, absorbed, units)
+        turning = sign, float(learned.get("sign_width") or 1.0) / LearnSettings().sign_width
+        return cls(law, place.slot, argument, turning, knots, wanted, spread, absorbed, units)
 
     def at(self, values: Mapping[str, float]) -> Array:
-        """(m,) of the law."""
+        """(m,) of the law; of its part that changes sign with the curve's factor, where that is a sign."""
         from pysim.effects.law import Moment
 
-        found = Moment(self.law, {**values, self.argument: self.knots})[self.slot.gives[0]]
-        return np.broadcast_to(np.asarray(found, float), self.knots.shape)
+        name, far = self.turning
+        seen = [{**values, name: side, self.argument: self.knots} for side in (far, -far)]
+        there, back = (np.asarray(Moment(self.law, one)[self.slot.gives[0]], float) for one in seen)
+        return np.broadcast_to(0.5 * (there - back) if name else there, self.knots.shape)
 
     def beside(self, values: Mapping[str, float]) -> Array:
         """(m,) of the law, with as much of what is absorbed as brings it nearest to the learned curve."""

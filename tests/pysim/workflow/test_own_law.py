@@ -47,6 +47,17 @@ def test_what_the_models_own_parameters_may_add_is_not_the_laws(place: LawPlace)
     assert found.curve == pytest.approx(law["shape"]["value"], abs=0.01 * F_C)
 
 
+def test_usual_values_follow_a_curve_that_changes_sign_with_another_variable(place: LawPlace) -> None:
+    """Dry friction, learned as the sign of the velocity times a curve over the way: 0.4 N less 0.5 N/m of it."""
+    law = learned(lambda x: -(F_C - 0.5 * x))
+    law |= {"depends_on": "force.x", "factor": "sign(v)", "sign_width": V_0 / 10}
+    law["shape"]["argument_unit"] = "m"
+    found = typed_law("-(F_c - b*x)*tanh(v/0.002)", place, law)
+    assert {name: own[2] for name, own in found.ranges.items()} == pytest.approx({"F_c": F_C, "b": 0.5}, rel=0.01)
+    assert found.curve == pytest.approx(law["shape"]["value"], abs=0.01 * F_C)
+    assert typed_law("-c*x", place, law).curve == pytest.approx(np.zeros(KNOTS.size))  # no part of it turns
+
+
 def test_what_was_chosen_stays_and_the_others_follow(place: LawPlace) -> None:
     law = learned(lambda v: -F_C * np.tanh(v / V_0))
     found = typed_law("-F_c*tanh(v/v_0)", place, law, {"v_0": (0.01, 0.1, 0.05, "m/s"), "gone": (0, 1, 1, "1")})
