@@ -210,7 +210,8 @@ def _answer(
     of_law = [verdict.note_of_laws(learning, final)] if wanted and not learned else []
     refused = {**search.models.refused, **({} if learning is None else learning.refused)}
     own = verdict.notes_of(found, estimates, refused, session)
-    own += [Note(NoteCode.BEYOND_BOUND, {"effect": name}) for name in sorted(search.beyond - set(final.names))]
+    beyond = {name for table in search.tables for name in table.beyond} & {one.name for one in session.catalogue}
+    own += [Note(NoteCode.BEYOND_BOUND, {"effect": name}) for name in sorted(beyond - set(final.names))]
     return Diagnosis(
         effects=verdict.found_effects(found, estimates, session),
         complete=complete,

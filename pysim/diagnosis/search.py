@@ -54,12 +54,14 @@ class Table:
         avoidable: nats that could be gained.
         rivals: refitted, best first.
         looked: every effect at its best size.
+        beyond: what passes its test, and is not among the rivals since nobody would believe its size.
     """
 
     names: tuple[str, ...]
     avoidable: float
     rivals: Sequence[Compared]
     looked: Sequence[Screened]
+    beyond: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -90,8 +92,8 @@ class Found:
         steps: forward, in the order they were made.
         losses: name of each effect kept -> what leaving it out costs.
         undecidable: whether too few independent samples are there to decide anything.
-        more: whether something passes its test that is not kept, since unseen logs or blocks argue against it, or may
-            pass that was not tried, since no more effects were asked for.
+        more: whether something passes its test that is not kept, since unseen logs or blocks or its size argue against
+            it, or may pass that was not tried, since no more effects were asked for.
     """
 
     base: FinalFit
@@ -120,7 +122,6 @@ class Search:
         self.models, self.rough, self.fine, self.settings, self.say = models, fine.rough(), fine, settings, say
         self._checkpoint = checkpoint
         self.floors, self.tried = Floors(), 0
-        self.beyond: set[str] = set()  # effects that gain, and would end beyond their bounds
         self._tables: dict[frozenset[str], Table] = {}
         self._fits: dict[tuple[frozenset[str], bool], FinalFit] = {}
         self._unfitted: dict[tuple[frozenset[str], bool], tuple[FinalFit, rivals.Rows | None, float]] = {}
@@ -255,12 +256,14 @@ class Search:
                 break
             end = self._backward(base, steps)
             limited = len(steps) == most and not self.is_done(end.final)
-            ends.append(replace(end, more=end.more or limited))
+            table = self._tables.get(frozenset(end.final.candidate.labels))
+            beyond = table is not None and bool(table.beyond)
+            ends.append(replace(end, more=end.more or limited or beyond))
             if way == 0 and self.is_done(ends[0].final):
                 break
             first = first or steps
         if not ends:
-            return Found(base, base, (), self.floors)
+            return Found(base, base, (), self.floors, more=bool(self.expand(base).beyond))
         return max(ends, key=lambda end: self._worth(base, end.final))
 
     def _worth(self, base: FinalFit, fit: FinalFit) -> float:
@@ -337,15 +340,16 @@ class Search:
         part = f"beside {' + '.join(present.candidate.labels) or 'the base model'}"
         candidates = [one.candidate for one in tried] + [fit.candidate for fit in sensors]
         fits = self._checkpoint.once(part, raced, candidates, self._simulations)
-        have, compared = set(present.candidate.labels), list[Compared]()
+        have, compared, beyond = set(present.candidate.labels), list[Compared](), list[str]()
         for fit in fits:
             added = next(label for label in fit.candidate.labels if label not in have)
             one = Compared(fit, added, self.test(starts.like(fit), fit))
             if fit.believable(added, self.settings):
                 compared.append(one)
-            elif one.test.verdict is Verdict.BETTER and added in fit.candidate.places:
-                self.beyond.add(added)
-        return Table(present.candidate.labels, self.floors.potential(present), self._ordered(compared), tried)
+            elif one.test.verdict is Verdict.BETTER:
+                beyond.append(added)
+        labels, avoidable = present.candidate.labels, self.floors.potential(present)
+        return Table(labels, avoidable, self._ordered(compared), tried, tuple(beyond))
 
     def _beside(self, fit: FinalFit, transient: bool) -> FinalFit:
         """A fit compared by orbits or by transients, as a rival is."""

@@ -8,6 +8,7 @@ from tempfile import mkdtemp
 
 import pytest
 
+from pysim.diagnosis import diagnose
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.progress import Progress
@@ -16,6 +17,7 @@ from pysim.diagnosis.search import Search
 from pysim.diagnosis.session import session
 from pysim.diagnosis.settings import Settings
 from pysim.effects import read_catalogue
+from pysim.types import Record
 from pysim.types.answer import Verdict
 from pysim.workflow.variants import Variants
 from tests.known_answers.plants import PLANTS
@@ -102,3 +104,19 @@ def test_rivals_end_by_runs_as_fine_as_each_needs() -> None:
         finer = begin(fit.candidate, fit.values, fit.simulation.finer(1e-3), fit)
         assert search.floors.between(fit, finer) < 1.5 * opened.settings.fine
     assert min(fit.simulation.solver.rtol for fit in ended) < base.simulation.solver.rtol
+
+
+@pytest.mark.parametrize(("deviations", "named"), [(4.0, ("sensor.offset",)), (0.1, ())])
+def test_a_size_that_nobody_believes_leaves_something_missing(deviations: float, named: tuple[str, ...]) -> None:
+    """The position is read too high by half its noise, a third of what is expected of such a sensor."""
+    data, shift = measured("mass"), 0.0005
+    shifted = []
+    for record in data.records:
+        assert isinstance(record.data, Record)
+        values = record.data.values.copy()
+        values[:, record.data.names.index("x")] += shift
+        shifted.append(replace(record, data=replace(record.data, values=values)))
+    logs = given("mass", replace(data, records=tuple(shifted)), ["mass.drag"])
+    answer = diagnose(replace(logs, settings=Settings(believable=deviations), build_law=None))
+    assert tuple(one.effect.name for one in answer.effects) == named
+    assert answer.complete == bool(named)
