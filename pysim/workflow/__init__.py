@@ -22,7 +22,16 @@ if TYPE_CHECKING:
     from pysim.workflow.fitting import Initial, beginning, fit_problem, fitted, initial_values
     from pysim.workflow.free import free_parameters, suggested
     from pysim.workflow.learned import class_name_of, keep_law, law_file, with_classes
-    from pysim.workflow.model import ModelInside, class_in, inside, is_fmu, model_of, recorded_of, with_standard
+    from pysim.workflow.model import (
+        ModelInside,
+        class_in,
+        inside,
+        is_fmu,
+        model_of,
+        models_in,
+        recorded_of,
+        with_standard,
+    )
     from pysim.workflow.own_law import LawPlace, TypedLaw, effect_class, typed_law
     from pysim.workflow.session import SessionParts, effects_of, named, open_session, session_of, session_parts
     from pysim.workflow.shell import command_line
@@ -36,7 +45,7 @@ _FILES = {
     "fitting": ("Initial", "beginning", "fit_problem", "fitted", "initial_values"),
     "free": ("free_parameters", "suggested"),
     "learned": ("class_name_of", "keep_law", "law_file", "with_classes"),
-    "model": ("ModelInside", "class_in", "inside", "is_fmu", "model_of", "recorded_of", "with_standard"),
+    "model": ("ModelInside", "class_in", "inside", "is_fmu", "model_of", "models_in", "recorded_of", "with_standard"),
     "own_law": ("LawPlace", "TypedLaw", "effect_class", "typed_law"),
     "session": ("SessionParts", "effects_of", "named", "open_session", "session_of", "session_parts"),
     "shell": ("command_line",),
@@ -67,6 +76,7 @@ __all__ = [
     "keep_law",
     "law_file",
     "model_of",
+    "models_in",
     "named",
     "open_session",
     "recorded_of",

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -69,17 +70,32 @@ def class_in(file: Path) -> str:
     Raises:
         BadInput: it cannot be read, or declares none or several at its top; lists what it holds.
     """
+    names = _models_in(file)
+    outer = [name for name in names if "." not in name]
+    if len(outer) == 1:
+        return outer[0]
+    raise BadInput(f"{file} holds {', '.join(names) or 'no model'}; name one of them, and the file as its library")
+
+
+def models_in(libraries: Sequence[Path]) -> tuple[str, ...]:
+    """Full names of the models of libraries and files that can be read, those with slots first; effects are none."""
+    found: list[str] = []
+    for one in libraries:
+        with suppress(BadInput):
+            found += _models_in(one)
+    return tuple(found)
+
+
+def _models_in(library: Path) -> list[str]:
     from fmu_build.text import Libraries, TextError
 
     try:
-        declared = [one for one in Libraries([file]).classes() if one.kind in ("model", "block", "class")]
+        declared = [one for one in Libraries([library]).classes() if one.kind in ("model", "block", "class")]
     except TextError as error:
         raise BadInput(str(error)) from error
-    outer = [one.full_name for one in declared if "." not in one.full_name]
-    if len(outer) == 1:
-        return outer[0]
-    names = ", ".join(one.full_name for one in declared if "partial" not in one.prefixes) or "no model"
-    raise BadInput(f"{file} holds {names}; name one of them, and the file as its library")
+    whole = [one for one in declared if "partial" not in one.prefixes]
+    whole = [one for one in whole if not any(token.text == "effect" for token in one.annotation)]
+    return [one.full_name for one in sorted(whole, key=lambda one: "replaceable" not in one.words)]
 
 
 @dataclass(frozen=True)

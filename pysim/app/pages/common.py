@@ -33,23 +33,24 @@ def start(desk: Desk, work: Callable[[], Work], *, then: str = "") -> None:
         ui.navigate.to(then)
 
 
-def busy(desk: Desk) -> str:
-    """Why nothing can be started now; "" where something can."""
+def busy(desk: Desk, here: str = "") -> str:
+    """Why nothing can be started now, as the page `here` says it; "" where something can."""
+    data, prepare = ("" if here == page else f" on the page {page}" for page in ("Data", "Prepare"))
     if desk.runner.running is not None:
         return f"Wait until {desk.runner.running.work.title} has ended"
     if desk.doing:
         return desk.doing
     if desk.check is None or not desk.check.records:
         bare = desk.project.data.is_dir() and not desk.project.description.is_file()
-        return "Say what the columns of the logs are, on the page Data" if bare else "Drop a data set on the page Data"
+        return ("Say what the columns of the logs are" if bare else "Drop a data set") + data
     if desk.loaded is not None and desk.loaded.refused:
-        return "Mend the logs that were refused, or leave them out, on the page Data"
+        return "Mend the logs that were refused, or leave them out" + data
     if desk.loaded is not None and desk.loaded.empty_cells:
-        return "Fill the cells that are empty, or cut them out, on the page Prepare"
+        return "Fill the cells that are empty, or cut them out" + prepare
     if not desk.project.settings().model:
         return "Name a model first"
     if unfit(desk):
-        return "Let every signal be a variable of the model, or leave it out, on the page Data"
+        return "Let every signal be a variable of the model, or leave it out" + data
     return "Wait until the model is built" if desk.model_busy else desk.model_trouble and "Name another model"
 
 

@@ -22,6 +22,7 @@ from pysim.io import counted
 from pysim.present.data_check import sentence
 from pysim.present.notes import NOT_FITTED
 from pysim.types import UNITS, BadInput, Record
+from pysim.workflow import models_in
 
 _NO_SLOTS = (
     "The class has no slots, so the page can fit it and show where it fails, but not add what is missing. A slot is a "
@@ -56,7 +57,7 @@ def data_page(desk: Desk) -> None:
 def _ready(desk: Desk) -> None:
     """What to do next."""
     ended(desk)
-    why = busy(desk)
+    why = busy(desk, here="Data")
     if why and desk.runner.running is None:
         if not desk.project.empty:
             note(f"Next: {why[0].lower()}{why[1:]}.")
@@ -83,7 +84,7 @@ def _model(desk: Desk, named: dict[str, str]) -> None:
     with card("Model"):
         with box("row"):
             names = list(dict.fromkeys([*MODELS, *([settings.model] if settings.model else [])]))
-            own = [Path(one).stem for one in settings.libraries]  # a class of that name, or a package of classes
+            own = models_in([desk.project.folder / one for one in settings.libraries])
             name = named.get("name", settings.model or next(iter(own), ""))
             label = "Modelica class, or the name of an .fmu below model"
             field = Entry(label, name, lambda words: named.update(name=words), "type=text list=models spellcheck=false")

@@ -114,7 +114,7 @@ def test_dates_volts_an_empty_cell_and_a_turned_sign_are_made_ready_by_clicks_al
     tab.shot("dates")
     tab.press("Use these logs")
     tab.see("1 record, 0 not fitted")
-    tab.see("Next: fill the cells that are empty, or cut them out, on the page Prepare.")
+    tab.see("Next: fill the cells that are empty, or cut them out on the page Prepare.")
     for key, value in (("unit", "mm"), ("factor", "-25"), ("offset", "125")):
         field = tab.page.get_by_label(f"{key} of x")
         field.select_option(value) if key == "unit" else (field.fill(value), field.press("Tab"))

@@ -9,7 +9,8 @@ from pysim.effects import STANDARD_LIBRARY
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import BadInput, Experiment, Model, Signal
-from pysim.workflow import Variants, class_in, export_model, model_of, recorded_of
+from pysim.workflow import Variants, class_in, export_model, model_of, models_in, recorded_of
+from tests.known_answers.plants import PLANTS
 from tests.toy import CATALOGUE, library
 
 MASS = model_of("Toy.Mass", [library()])
@@ -54,6 +55,12 @@ def test_a_file_of_one_model_needs_no_name(tmp_path: Path) -> None:
     for file, said in ((two, "Two.A, Two.B"), (tmp_path / "none.mo", "none.mo")):
         with pytest.raises(BadInput, match=said):
             class_in(file)
+
+
+def test_the_models_of_a_library_are_neither_packages_nor_partial_nor_effects() -> None:
+    found = models_in([PLANTS["mass"].library, Path("none.mo")])
+    assert {*found} == {"Mass.Both", "Mass.Design", "Mass.NoForce"}
+    assert found[-1] == "Mass.NoForce"  # the others have slots
 
 
 def test_a_run_records_what_is_asked_for_else_the_outputs() -> None:
