@@ -164,6 +164,8 @@ def test_nothing_sticks_out_and_what_reads_aloud_knows_the_page(width: int, show
         assert tab.page.evaluate(WIDE) == [], path
         assert tab.page.evaluate("document.documentElement.lang") == "en"
         assert tab.page.locator("main").count() == 1
+        cut = "(all) => all.filter((one) => one.scrollWidth > one.clientWidth).map((one) => one.textContent)"
+        assert tab.page.locator(".what b").evaluate_all(cut) == []
         unnamed = "input:not([aria-label]):not([id]), select:not([aria-label])"
         assert tab.page.locator(unnamed).count() == 0
     assert tab.errors == []
