@@ -518,11 +518,11 @@ class Search:
 
 
 def _steps(fit: FinalFit) -> int:
-    """That the longest run takes."""
-    overrides = fit.candidate.held(fit.values).fixed
-    runs = [run.over_time(overrides, None) for run in fit.candidate.residuals(fit.simulation).runs]
-    longest = max(runs, key=lambda run: float(run.times[-1]) - run.start)
-    (record,) = simulate_many(fit.candidate.model, [longest], solver=fit.simulation.solver)
+    """That the longest run takes, of those that may choose too."""
+    overrides, simulation = fit.candidate.held(fit.values).fixed, fit.simulation
+    every = [run for use in ("fit", "validate") for run in fit.candidate.residuals(simulation, use).runs]
+    longest = max((run.over_time(overrides, None) for run in every), key=lambda run: float(run.times[-1]) - run.start)
+    (record,) = simulate_many(fit.candidate.model, [longest], solver=simulation.solver)
     return record.statistics["steps"] + record.statistics["rejected"]
 
 

@@ -120,3 +120,17 @@ def test_a_size_that_nobody_believes_leaves_something_missing(deviations: float,
     answer = diagnose(replace(logs, settings=Settings(believable=deviations), build_law=None))
     assert tuple(one.effect.name for one in answer.effects) == named
     assert answer.complete == bool(named)
+
+
+def test_a_run_is_given_up_by_what_the_longest_log_takes_be_it_a_choosing_one() -> None:
+    """It is ten times as long."""
+    short, long = (measured("mass", fit=(1,), length=length) for length in (2.0, 20.0))
+    given_up = []
+    for choosing in (short, long):
+        data = replace(short, records=(short.records[0], choosing.records[1]))
+        search = Search(
+            Models(given("mass", data)), FINE, Settings(), Progress(lambda told: None), Checkpoint(None, "")
+        )
+        search.fit_base()
+        given_up.append(search.fine.solver.max_steps)
+    assert given_up[1] > 4 * given_up[0]
