@@ -64,7 +64,8 @@ class Sizes:
     """At which sizes an effect is tried, over its usual one.
 
     Args:
-        off: of an amount as good as none, where slopes are those beside none: at none a Stribeck friction has none.
+        off: of an amount as good as none, where slopes are those beside none: at none a Stribeck friction has none, and
+            a hundred times more of air in a chamber that runs empty already costs 30 nats.
         kept: of the same with a state of its own: smaller ones no step control sees, and slopes err.
         usual: of an amount.
         limits: of a limit, over the largest value that the limited variable reaches.
@@ -72,7 +73,7 @@ class Sizes:
         moved: what initial states may still take, as a share of what the effect does, above which they move along.
     """
 
-    off: float = 1e-5
+    off: float = 1e-7
     kept: float = 0.02
     usual: tuple[float, ...] = (0.3, 1.0)
     limits: tuple[float, ...] = (0.92, 0.75, 0.55, 0.35, 0.2, 0.1)

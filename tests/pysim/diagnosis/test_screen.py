@@ -65,8 +65,10 @@ def test_the_refit_begins_near_the_amount_that_is_best() -> None:
 
 def test_amounts_begin_along_with_others_where_each_would_begin_alone() -> None:
     """One run of a model that has all of them gives each the cost and the promise that a run of its own does."""
-    starts = {name: one.start for name, one in by_name().items() if one.start is not None}
+    found = by_name()
+    starts = {name: one.start for name, one in found.items() if one.start is not None}
     assert len(starts) > 2
+    assert [found[name].before for name in starts] == pytest.approx([base().point.cost] * len(starts), abs=0.05)
     for name, start in starts.items():
         alone = begin(start.candidate, start.values, FINE, base())
         assert start.point.x == pytest.approx(alone.point.x), name
