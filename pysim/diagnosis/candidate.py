@@ -191,24 +191,19 @@ class Models:
     def amounts(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = ()) -> Iterator[Candidate]:
         """The model with these effects and amounts of others: in one all that are built together and keep no state,
         each of the others alone; none that are limits, or would be beside events."""
-        left = [effect for effect in self.session.catalogue if not (effect in effects or effect.limit)]
-        while left:
-            first = left.pop(0)
+        groups: dict[tuple[int, str], list[Effect]] = {}
+        for effect in self.session.catalogue:
+            if effect.limit or effect in effects:
+                continue
             try:
-                alone = self.of((*effects, first), nuisances)
+                alone = self.of((*effects, effect), nuisances)
             except BadInput:
                 continue
-            if alone.has_events:
-                continue
-            if alone.keeps_state(first.name):
-                yield alone
-            else:
-                built = self._with_others((*map(searched, effects), searched(first)))
-                together = [effect for effect in left if searched(effect) in built]
-                whole = self.of((*effects, first, *together), nuisances)
-                more = [effect for effect in together if not whole.keeps_state(effect.name)]
-                left = [effect for effect in left if effect not in more]
-                yield self.of((*effects, first, *more), nuisances)
+            if not alone.has_events:
+                own = effect.name if alone.keeps_state(effect.name) else ""
+                groups.setdefault((id(alone.model), own), []).append(effect)
+        for more in groups.values():
+            yield self.of((*effects, *more), nuisances)
 
     def alone(
         self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = (), *, transient: bool = False

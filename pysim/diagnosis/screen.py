@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -99,27 +100,22 @@ def screen(
         simulation: of an effect at a size.
         fits: of refits, which begin at the slopes; as `simulation` where None.
     """
-    sizes = sizes or Sizes()
-    present = beside(False)
-    have = {effect.name for effect in present.candidate.effects}
-    found = list(_by_slopes(models, beside, fits or simulation, sizes))
-    have |= {one.effect.name for one in found}
-    befores: dict[bool, tuple[FinalFit, Rows, Array]] = {}
+    sizes, before = sizes or Sizes(), cache(lambda transient: _Before.of(beside(transient)))
+    own = before(False).present.candidate
+    found = list(_by_slopes(models, before, fits or simulation, sizes))
+    have = {effect.name for effect in own.effects} | {one.effect.name for one in found}
     for effect in models.session.catalogue:
         if effect.name in have:
             continue
         try:
-            candidate = models.of((*present.candidate.effects, effect), present.candidate.nuisances)
+            candidate = models.of((*own.effects, effect), own.nuisances)
         except BadInput as error:
             models.refused.setdefault(effect.name, str(error))
             continue
-        if candidate.transient not in befores:
-            present = beside(candidate.transient)
-            befores[candidate.transient] = present, of(present), _span(of(present))
-        own = list(_screened(candidate, effect, *befores[candidate.transient], simulation, sizes))
-        if not own:
+        tried = list(_screened(candidate, effect, before(candidate.transient), simulation, sizes))
+        if not tried:
             models.refused.setdefault(effect.name, "the model could not be simulated with it")
-        found += own
+        found += tried
     return sorted(found, key=lambda one: -one.gain)
 
 
@@ -127,8 +123,7 @@ def screened(
     candidate: Candidate, effect: Effect, present: FinalFit, simulation: Simulation, sizes: Sizes | None = None
 ) -> list[Screened]:
     """One effect at each of its sizes; none where the model cannot be simulated with it."""
-    before = of(present)
-    return list(_screened(candidate, effect, present, before, _span(before), simulation, sizes or Sizes()))
+    return list(_screened(candidate, effect, _Before.of(present), simulation, sizes or Sizes()))
 
 
 def best_of_each(screened: Sequence[Screened]) -> list[Screened]:
@@ -139,35 +134,66 @@ def best_of_each(screened: Sequence[Screened]) -> list[Screened]:
     return list(best.values())
 
 
+@dataclass(frozen=True)
+class _Before:
+    """The present model as effects change it.
+
+    Args:
+        rows: of its point.
+        span: (n_r, rank) what refitting can reach, over the levels.
+    """
+
+    present: FinalFit
+    rows: Rows
+    span: Array
+
+    @classmethod
+    def of(cls, present: FinalFit) -> _Before:
+        found = of(present)
+        return cls(present, found, _span(found))
+
+    def beyond(self, change: Array) -> Array:
+        """What of a change of the residual over its levels (n_r,) refitting leaves."""
+        return np.asarray(change - self.span @ (self.span.T @ change))
+
+    def best(self, effect: Effect, change: Array, left: Array) -> tuple[float, float] | None:
+        """By how many times a change the effect is best, and the nats that this promises; None where refitting does as
+        much as the effect."""
+        size = float(left @ left)
+        if not size > EXACT * float(change @ change):
+            return None
+        amount = -float(left @ (self.rows.residual / self.rows.level)) / size
+        amount = amount if amount > 0 or _signed(effect) else 0.0
+        return amount, 0.5 * amount**2 * size
+
+
 def _by_slopes(
-    models: Models, beside: Callable[[bool], FinalFit], simulation: Simulation, sizes: Sizes
+    models: Models, befores: Callable[[bool], _Before], simulation: Simulation, sizes: Sizes
 ) -> Iterator[Screened]:
     """Effects that are amounts, with the beginnings of their refits."""
-    first = beside(False).candidate
+    first = befores(False).present.candidate
     for own in models.amounts(first.effects, first.nuisances):
-        present, more = beside(own.transient), own.effects[len(first.effects) :]
+        before, more = befores(own.transient), own.effects[len(first.effects) :]
+        present = before.present
         keeps = own.keeps_state(more[0].name)
         off = {k: v for effect in more for k, v in _at_share(effect, sizes.kept if keeps else sizes.off).items()}
         there = begin(own, {**present.values, **off}, simulation, present)
         if not there.good:
             continue
-        before, after = of(present), of(there)
-        span, residual = _span(before), before.residual / before.level
+        after, level = of(there), before.rows.level
         for effect in more:
             candidate, usual = models.of((*first.effects, effect), first.nuisances), _at_share(effect, 1.0)
             apart = own.at({**present.values, **off, **usual}) - there.point.x
-            change = after.jacobian @ apart * (after.level / before.level)
-            left = change - span @ (span.T @ change)
-            size = float(left @ left)
-            if not size > EXACT * float(change @ change):
+            change = after.jacobian @ apart * (after.level / level)
+            left = before.beyond(change)
+            best = before.best(effect, change, left)
+            if best is None:
                 continue
-            amount = -float(left @ residual) / size
-            gain = 0.5 * amount**2 * size if amount > 0 or _signed(effect) else 0.0
             columns = [own.keys.index(key) for key in candidate.keys]
             start = begun(candidate, there.point.with_columns(columns), simulation, exact(candidate, simulation))
             tried = {p.name: usual.get((effect.name, p.name), p.default) for p in effect.parameters}
             cost = (present if keeps else there).point.cost
-            yield Screened(candidate, start.values, tried, gain, left * before.level, start, cost)
+            yield Screened(candidate, start.values, tried, best[1], left * level, start, cost)
 
 
 def _at_share(effect: Effect, share: float) -> dict[Key, float]:
@@ -180,23 +206,17 @@ def _share_of(p: EffectParameter, share: float) -> float:
 
 
 def _screened(
-    candidate: Candidate,
-    effect: Effect,
-    present: FinalFit,
-    before: Rows,
-    span: Array,
-    simulation: Simulation,
-    sizes: Sizes,
+    candidate: Candidate, effect: Effect, before: _Before, simulation: Simulation, sizes: Sizes
 ) -> Iterator[Screened]:
-    residual = before.residual / before.level
+    present, level = before.present, before.rows.level
     milder: tuple[float, float] | None = None  # cost and gain of the size before
     carried = candidate.carried(present.candidate, present.point)
     residuals = candidate.residuals(simulation)
 
     def changed(point: Point) -> tuple[Array, Array]:
         """What the effect does to the residual over its levels (n_r,), and what of it refitting leaves."""
-        change = (rows(candidate, residuals, point).residual - before.residual) / before.level
-        return change, change - span @ (span.T @ change)
+        change = (rows(candidate, residuals, point).residual - before.rows.residual) / level
+        return change, before.beyond(change)
 
     for tried in _values(effect, _largest(candidate, effect, present, simulation), sizes):
         values = with_effect(present.values, effect, tried)
@@ -211,15 +231,12 @@ def _screened(
             again = residuals.evaluate(candidate.model, space, np.zeros(0), moved, jacobian=False, states=False)
             if again.good and again.cost < point.cost:
                 change, left = changed(again)
-        size = float(left @ left)
-        if not size > EXACT * float(change @ change):
+        best = before.best(effect, change, left)
+        if best is None:
             continue
-        amount = -float(left @ residual) / size
-        if amount < 0 and not _signed(effect):
-            amount = 0.0
-        scaled = _amounted(effect, tried, amount)
-        start, gain = with_effect(present.values, effect, scaled), 0.5 * amount**2 * size
-        yield Screened(candidate, start, tried, gain, left * before.level)
+        amount, gain = best
+        start = with_effect(present.values, effect, _amounted(effect, tried, amount))
+        yield Screened(candidate, start, tried, gain, left * level)
         if effect.limit and milder is not None and point.cost > milder[0] and gain <= milder[1]:
             return  # what limits more is farther from the measurements
         milder = point.cost, gain

@@ -71,7 +71,7 @@ class Settings:
     )  # fmt: skip
     patience: int = setting(
         100, unit="1", meaning="steps over those of the base model's longest run, after which a run is given up",
-        source="measured: a pump with a play takes 75 times those, at 1e-8",
+        source="measured: a pump with a play takes 10 times those, at 1e-8",
     )  # fmt: skip
     refinements: int = setting(3, unit="1", meaning="tenfold refinements at most", source="to 1e-8, near rounding")
     unexplained: float = setting(

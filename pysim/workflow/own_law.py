@@ -164,12 +164,16 @@ class _Curve:
 
     def at(self, values: Mapping[str, float]) -> Array:
         """(m,) of the law; of its part that changes sign with the curve's factor, where that is a sign."""
+        name, far = self.turning
+        if not name:
+            return self._along(values)
+        return 0.5 * (self._along({**values, name: far}) - self._along({**values, name: -far}))
+
+    def _along(self, values: Mapping[str, float]) -> Array:
         from pysim.effects.law import Moment
 
-        name, far = self.turning
-        seen = [{**values, name: side, self.argument: self.knots} for side in (far, -far)]
-        there, back = (np.asarray(Moment(self.law, one)[self.slot.gives[0]], float) for one in seen)
-        return np.broadcast_to(0.5 * (there - back) if name else there, self.knots.shape)
+        found = Moment(self.law, {**values, self.argument: self.knots})[self.slot.gives[0]]
+        return np.broadcast_to(np.asarray(found, float), self.knots.shape)
 
     def beside(self, values: Mapping[str, float]) -> Array:
         """(m,) of the law, with as much of what is absorbed as brings it nearest to the learned curve."""

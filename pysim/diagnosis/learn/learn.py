@@ -128,14 +128,14 @@ class Learner:
         except BadInput as error:
             self._refused[place.name] = str(error)
             return None
-        return LawModel(place, count, self._rough, model, self._rough.simulation)
+        return LawModel(place, count, self._rough, model)
 
     def _raced(self, chosen: Sequence[tuple[LawModel, Ranked]]) -> list[LawFit]:
         """The laws some points on with every parameter, those that promise most some more; the best first."""
         running: list[tuple[LawModel, LawFit]] = []
         for model, one in chosen:
             self._say(f"refitting {one.law.label}")
-            fit = moved(begun(model, one, model.simulation), self._settings.heat)
+            fit = moved(begun(model, one, self._rough.simulation), self._settings.heat)
             if fit.fit.good and fit.cost < self._rough.point.cost:
                 running.append((model, fit))
         running.sort(key=lambda one: self._scored(one[1]))
@@ -159,7 +159,7 @@ class Learner:
 
         The last search alone takes the runs of what is kept.
         """
-        settings, rough = self._settings, model.simulation
+        settings, rough = self._settings, self._rough.simulation
         best = settled(one, settings.heat)
         while best.fit.good and best.coarse and 2 * best.knots.size - 1 <= settings.most_knots:
             finer = self._model(model.place, 2 * best.knots.size - 1)

@@ -86,7 +86,7 @@ def _without(session: Session, law: LawFit, effect: Effect, alone: Alone, settin
         model = session.build_law(effects, terms)
     except BadInput:
         return None
-    made = LawModel(law.law.place, law.knots.size, present, model, present.simulation)
+    made = LawModel(law.law.place, law.knots.size, present, model)
     x = np.append(candidate.at(values), law.values)
     found = started(made, law.law, law.knots, law.unit, law.smoothness, x, law.fit.simulation)
     return ended(settled(found, settings.heat)) if found.fit.good else None

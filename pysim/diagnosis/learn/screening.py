@@ -17,7 +17,7 @@ from pysim.diagnosis.learn.laws import TIME, Law, Place, samples
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.settings import LearnSettings
-from pysim.identify.greybox import Problem, Simulation
+from pysim.identify.greybox import Problem
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import beside
 from pysim.identify.greybox.residuals import Channel
@@ -73,14 +73,12 @@ class LawModel:
         count: knots of its curve.
         present: the model without.
         model: the compiled one.
-        simulation: of the runs.
     """
 
     place: Place
     count: int
     present: FinalFit = field(repr=False)
     model: Model = field(repr=False)
-    simulation: Simulation = field(repr=False)
 
     @cached_property
     def problem(self) -> Problem:
@@ -96,7 +94,7 @@ class LawModel:
         unit = _LITTLE / max(float(np.sqrt(np.mean(by**2))), 1e-300)
         names = self.place.coefficients(k.size)
         candidate = self.candidate(law.settings(k, unit), names, np.ones(k.size), free=False)
-        point = candidate.residuals(self.simulation).evaluate(
+        point = candidate.residuals(self.present.simulation).evaluate(
             candidate.model, candidate.space, np.zeros(k.size), self.present.point.carried
         )
         return (unit, point.jacobian) if point.good and np.isfinite(point.jacobian).all() else None

@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping, Sequence
 from functools import cache
+from pathlib import Path
 
 from pysim.diagnosis.candidate import Models, Values
 from pysim.diagnosis.refit import FinalFit, begin, converged
@@ -65,6 +66,15 @@ def measured(
         noise = case.logs.stated * case.logs.louder * sensor.noise or None
         signals.append(MeasuredSignal(name, "output", sensor.unit, name, name, noise=noise))
     return Dataset(plant, "of a known answer", "plant", tuple(signals), tuple(records))
+
+
+def stopped(folder: Path) -> tuple[Dataset, Models]:
+    """Logs of a mass that has no ends, and the model that may have some; the library is written into a folder."""
+    library = folder / "Stops.mo"
+    library.write_text(STOPS, encoding="utf-8")
+    own, data = Variants(PLANTS["mass"].model, (PLANTS["mass"].library, library)), measured("mass", length=4.0)
+    effects = read_catalogue(library)
+    return data, Models(session(own.build(())[0], data, effects, own.build, initial="rest", workers=1))
 
 
 def given(plant: str, data: Dataset, names: Sequence[str] | None = None, *, initial: str = "rest") -> Session:

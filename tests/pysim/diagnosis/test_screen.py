@@ -12,11 +12,7 @@ from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.refit import FinalFit, begin, converged
 from pysim.diagnosis.screen import Screened, Sizes, best_of_each, screen, screened
-from pysim.diagnosis.session import session
-from pysim.effects import read_catalogue
-from pysim.workflow.variants import Variants
-from tests.known_answers.plants import PLANTS
-from tests.pysim.diagnosis.plants import FINE, STOPS, given, measured, refitted
+from tests.pysim.diagnosis.plants import FINE, given, measured, refitted, stopped
 
 FORCE = -0.02  # N, constant: it shifts the mass by half its noise
 
@@ -105,13 +101,10 @@ def test_a_strength_of_one_sign_gains_nothing_against_it() -> None:
 
 
 def test_a_limit_is_tried_below_what_its_variable_reaches(tmp_path: Path) -> None:
-    library = tmp_path / "Stops.mo"
-    library.write_text(STOPS, encoding="utf-8")
-    own = Variants("Mass.Design", (PLANTS["mass"].library, library))
-    data = measured("mass", length=4.0)
-    made = Models(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
+    data, made = stopped(tmp_path)
     fit = refitted(made)
     found = screen(made, lambda transient: fit, FINE, Sizes(limits=(0.9, 0.5)))
     most = max(float(np.abs(record.data["x"]).max()) for record in data.records if record.use == "fit")
     tried = sorted(1 / one.values["stops.ends", "inverse_x_m"] for one in found)
     assert tried == pytest.approx([0.5 * most, 0.9 * most], rel=0.03)
+    assert best_of_each(found) == found[:1]  # each effect once, at its best size

@@ -8,13 +8,9 @@ import pytest
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.refit import FinalFit, Runner, race
 from pysim.diagnosis.screen import Sizes, best_of_each, screen
-from pysim.diagnosis.session import session
 from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts
-from pysim.effects import read_catalogue
-from pysim.workflow.variants import Variants
-from tests.known_answers.plants import PLANTS
-from tests.pysim.diagnosis.plants import FINE, STOPS, given, measured, refitted
+from tests.pysim.diagnosis.plants import FINE, given, measured, refitted, stopped
 
 
 def runners(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = None) -> list[Runner]:
@@ -48,11 +44,7 @@ def test_near_the_floor_nothing_is_refitted_where_nothing_is_missing() -> None:
 
 def test_far_from_the_floor_a_limit_begins_at_the_size_that_is_nearest_the_measurements(tmp_path: Path) -> None:
     """The model's parameters as given, its ends where they stop least."""
-    library = tmp_path / "Stops.mo"
-    library.write_text(STOPS, encoding="utf-8")
-    own = Variants("Mass.Design", (PLANTS["mass"].library, library))
-    data = measured("mass", length=4.0)
-    models = Models(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
+    _, models = stopped(tmp_path)
     fit = refitted(models)
     sizes = Sizes(limits=(0.92, 0.55, 0.2))
     tried = {one.tried["inverse_x_m"] for one in screen(models, lambda transient: fit, FINE, sizes)}
