@@ -72,6 +72,11 @@ class Candidate:
         return (*(e.name for e in self.effects), *(f"{sensor_name(n)} {n.dataset}.{n.signal}" for n in self.nuisances))
 
     @property
+    def parts(self) -> dict[str, Effect | Nuisance]:
+        """Effects and sensor errors by their labels."""
+        return dict(zip(self.labels, (*self.effects, *self.nuisances), strict=True))
+
+    @property
     def model(self) -> Model:
         """With the effects in it."""
         return self.problem.model
@@ -187,6 +192,11 @@ class Models:
         kept = {effect.name: places[effect.name] for effect in effects}
         problem = replace(problem, space=space)
         return Candidate(effects, tuple(nuisances), problem, kept, transient, has_events, watch=self.watch)
+
+    def of_parts(self, parts: Sequence[Effect | Nuisance], *, transient: bool = False) -> Candidate:
+        """As `of`, of effects and sensor errors in one list."""
+        effects = [part for part in parts if isinstance(part, Effect)]
+        return self.of(effects, [part for part in parts if isinstance(part, Nuisance)], transient=transient)
 
     def amounts(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = ()) -> Iterator[Candidate]:
         """The model with these effects and amounts of others: in one all that are built together and keep no state,

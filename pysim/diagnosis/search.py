@@ -151,13 +151,30 @@ class Search:
                 raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {failure}")
             return converged(first, self.fine)
 
-        base = self._fine_enough(self._once("base", found, candidate))
+        base = self._as_measured(self._fine_enough(self._once("base", found, candidate)))
         rough = self.floors.with_(base).roughest(base, self.settings.fine)
         most = self.settings.patience * _steps(rough)
         self.fine, self.rough = (
             replace(own, solver=replace(own.solver, max_steps=most)) for own in (base.simulation, rough.simulation)
         )
         return self._keep(replace(base, simulation=self.fine))
+
+    def _as_measured(self, fit: FinalFit) -> FinalFit:
+        """A fit with stepped sines run as the bench ran them, where that promises more: a swing that dies away slowly
+        is not steady yet when a log ends. All other models are compared in the same way then."""
+        candidate = self.models.of(fit.candidate.effects, transient=True)
+        other = begin(candidate, fit.values, fit.simulation)
+        if fit.candidate.transient or not other.good or fit.point.cost - other.expected < self._hardly(fit):
+            return fit
+        transient = self._once("base, transient", lambda: converged(other), candidate)
+        if fit.point.cost - transient.point.cost < self._hardly(fit):
+            return fit
+        self.models.all_transient = True
+        return transient
+
+    def _hardly(self, fit: FinalFit) -> float:
+        """Nats that are not worth another way to simulate."""
+        return max(self.settings.anew, self.settings.small * self.floors.with_(fit).potential(fit))
 
     def _fine_enough(self, fit: FinalFit) -> FinalFit:
         """A fit integrated so finely that the error is small beside the floor, and that finer runs promise hardly more,
@@ -166,9 +183,7 @@ class Search:
             other = begin(fit.candidate, fit.values, fit.simulation.finer(), fit)
             if not other.good:
                 break
-            floors = self.floors.with_(fit)
-            hardly = max(self.settings.anew, self.settings.small * floors.potential(fit))
-            is_fine = floors.between(fit, other) < self.settings.fine
+            hardly, is_fine = self._hardly(fit), self.floors.with_(fit).between(fit, other) < self.settings.fine
             if is_fine and other.point.cost - other.expected < hardly:
                 break
             finer = converged(other)
@@ -246,25 +261,15 @@ class Search:
         return self._keep(self._fine_enough(converged(best, self.fine)))
 
     def run(self, base: FinalFit, most: int) -> Found:
-        """Forward along the best first steps, then backward from each end; the better end is kept."""
+        """Forward along the best steps, then backward from their end."""
         self.floors = self.floors.with_(base)
-        ends: list[Found] = []
-        first: list[Step] = []
-        for way in range(self.settings.beam):
-            steps = self._forward(base, most, way, first)
-            if not steps:
-                break
-            end = self._backward(base, steps)
-            limited = len(steps) == most and not self.is_done(end.final)
-            table = self._tables.get(frozenset(end.final.candidate.labels))
-            beyond = table is not None and bool(table.beyond)
-            ends.append(replace(end, more=end.more or limited or beyond))
-            if way == 0 and self.is_done(ends[0].final):
-                break
-            first = first or steps
-        if not ends:
+        steps = self._forward(base, most)
+        if not steps:
             return Found(base, base, (), self.floors, more=bool(self.expand(base).beyond))
-        return max(ends, key=lambda end: self._worth(base, end.final))
+        end = self._backward(base, steps)
+        limited = len(steps) == most and not self.is_done(end.final)
+        table = self._tables.get(frozenset(end.final.candidate.labels))
+        return replace(end, more=end.more or limited or (table is not None and bool(table.beyond)))
 
     def _worth(self, base: FinalFit, fit: FinalFit) -> float:
         """Penalised gain of a model."""
@@ -279,24 +284,15 @@ class Search:
         """Whether a model leaves so little over the floor that no two effects together are worth a trial."""
         return self.floors.within(fit, self.settings.held_out)
 
-    def _forward(self, base: FinalFit, most: int, way: int, other: Sequence[Step]) -> list[Step]:
-        """Steps along one way: the first goes to the best rival, or to the next best where that is not much worse, the
-        others to the best.
-
-        Args:
-            other: steps of another way; none are left of one that is behind it from the second step on.
-        """
+    def _forward(self, base: FinalFit, most: int) -> list[Step]:
+        """Steps to the best rival each; after each one the earlier ones are looked at again."""
         steps: list[Step] = []
         present, in_vain, worth = base, 0, self.floors.potential(base)
         while len(steps) < most:
             tried = self.expand(present)
-            compared = tried.rivals
-            place = way if not steps else 0
-            if len(compared) <= place:
+            if not tried.rivals:
                 break
-            best = compared[place]
-            if best.test.gain < self.settings.promising * compared[0].test.gain:
-                break
+            best = tried.rivals[0]
             sure = best.test.verdict is Verdict.BETTER and best.test.gain >= self.settings.small * tried.avoidable
             in_vain = 0 if sure else in_vain + 1
             gained = sum(s.test.gain for s in steps[len(steps) - in_vain + 1 :]) if in_vain > 1 else 0.0
@@ -306,13 +302,75 @@ class Search:
                 break
             self.fine = min(self.fine, best.fit.simulation, key=lambda one: one.solver.rtol)
             present = self._keep(converged(best.fit, self.fine))
+            steps.append(Step(present, best.added, best.test, not sure, tuple(tried.rivals)))
+            steps = self._exchanged(base, steps)
+            present = steps[-1].model
             self.floors = self.floors.with_(present)
-            steps.append(Step(present, best.added, best.test, not sure, tuple(compared)))
             self.say.learned(present, best.test)
-            ahead = other[len(steps) - 1].model if 1 < len(steps) <= len(other) else None
-            if ahead is not None and self._worth(base, ahead) >= self._worth(base, present):
-                return []
         return steps
+
+    def _exchanged(self, base: FinalFit, steps: list[Step]) -> list[Step]:
+        """The same with a rival in place of an earlier choice, where that does better beside what came in since.
+
+        What fills in for something else takes of its share what it can; two such decide between each other only when
+        the rest is in. Source: Miller 2002, Subset Selection in Regression, section 3.7: sequential replacement.
+        """
+        for k, step in enumerate(steps[:-1]):
+            present, first, *others = steps[-1].model, *step.rivals
+            least, have = self.settings.promising * first.test.gain, present.candidate.labels
+            others = [one for one in others if one.test.gain >= least and one.added not in have]
+            fits = {first.added: present} | {one.added: self._in_place(present, first.added, one) for one in others}
+            shape = self.settings.small * first.test.gain if self.is_done(present) else 0.0  # what more parameters gain
+            worth = {
+                name: self._worth(base, fit) - shape * (fit.candidate.size > present.candidate.size)
+                for name, fit in fits.items()
+                if fit.good
+            }
+            worth[first.added] += self.settings.anew
+            chosen = max(worth, key=lambda name: worth[name])
+            best = fits[chosen]
+            alike = [
+                name for name, fit in fits.items() if name in worth and fit is not best and self._are_ties(best, fit)
+            ]
+            ties = (*alike, *(name for name in first.ties if name not in fits))
+            ranked = sorted(step.rivals, key=lambda one: one.added != chosen)
+            ranked[0] = replace(ranked[0], ties=ties)
+            steps[k] = replace(step, added=chosen, test=ranked[0].test, rivals=tuple(ranked))
+            for j in reversed(range(k, len(steps) if best is not present else k)):
+                steps[j] = replace(steps[j], model=self._keep(best))
+                best = self._without(best, steps[j].added) if j > k else best
+        return steps
+
+    def _are_ties(self, best: FinalFit, other: FinalFit) -> bool:
+        """Whether the data do not tell a model from the best one, as far as the other promises to come."""
+        if other.candidate.transient != best.candidate.transient:
+            return False
+        reach = rivals.reach(rivals.of(best), rivals.of(other), self.settings.tie)
+        return other.expected - best.point.cost < reach
+
+    def _in_place(self, present: FinalFit, name: str, rival: Compared) -> FinalFit:
+        """The model with a rival in place of what it has by a name, refitted as far as it promises to do better."""
+        new = rival.fit.candidate.parts[rival.added]
+        parts = [new if label == name else part for label, part in present.candidate.parts.items()]
+        candidate = self.models.of_parts(parts, transient=present.candidate.transient)
+        present = self._beside(present, candidate.transient)
+        own = {key: v for key, v in rival.fit.values.items() if isinstance(key, tuple) and key[0] == rival.added}
+        values = {key: v for key, v in present.values.items() if isinstance(key, str) or key[0] != name} | own
+
+        def found() -> FinalFit:
+            fit = advance(begin(candidate, values, present.simulation, present), self.settings.heat)
+            return converged(fit) if fit.good and fit.expected < present.point.cost else fit
+
+        return self._once(
+            f"{rival.added} in place of {name} of {' + '.join(present.candidate.labels)}", found, candidate
+        )
+
+    def _told_apart(self, best: FinalFit, other: FinalFit) -> bool:
+        """Whether the data tell a model from the best one, as far as the other promises to come."""
+        if not other.good or other.candidate.transient != best.candidate.transient:
+            return True
+        reach = rivals.reach(rivals.of(best), rivals.of(other), self.settings.tie)
+        return other.expected - best.point.cost >= reach
 
     def expand(self, present: FinalFit) -> Table:
         """All that may be added to a model, refitted, the best first; and what was only screened."""
@@ -484,15 +542,11 @@ class Search:
     def _without(self, fit: FinalFit, label: str) -> FinalFit:
         """The model without one effect or sensor error: refitted from where the larger one stands, which a fit of its
         own may not have come to, and the better of the two."""
-        own, labels = fit.candidate, fit.candidate.labels
-        effects = [e for e, own_label in zip(own.effects, labels, strict=False) if own_label != label]
-        others = zip(own.nuisances, labels[len(own.effects) :], strict=True)
-        candidate = self.models.of(
-            effects, [one for one, own_label in others if own_label != label], transient=own.transient
-        )
+        parts = [part for own, part in fit.candidate.parts.items() if own != label]
+        candidate = self.models.of_parts(parts, transient=fit.candidate.transient)
         values = {key: value for key, value in fit.values.items() if not (isinstance(key, tuple) and key[0] == label)}
         find = partial(self._refitted, candidate, values, fit)
-        return self._keep(self._once(f"without {label} of {' + '.join(labels)}", find, candidate))
+        return self._keep(self._once(f"without {label} of {' + '.join(fit.candidate.labels)}", find, candidate))
 
     def _refitted(self, candidate: Candidate, values: Values, present: FinalFit) -> FinalFit:
         """Refitted from where another model stands, or from the base model if that does not run; or as it is known

@@ -19,9 +19,6 @@ class Settings:
         2, unit="1", meaning="steps that may follow each other without being significant",
         source="measured: a friction and a drag that are worth nothing alone",
     )  # fmt: skip
-    beam: int = setting(
-        2, unit="1", meaning="first steps that are gone on with", source="measured: known-answers, only-together"
-    )
     small: float = setting(
         0.02, unit="1", meaning="share of what can be gained below which steps on trial are not worth it",
         source="Mallows 1973, Technometrics 15:661: less does not pay for its parameters",

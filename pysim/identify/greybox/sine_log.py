@@ -57,6 +57,7 @@ class SineLog:
         columns, triangle: orthonormal columns (n_t, n_h) that span mean and harmonics, and the triangle (n_h, n_h)
             behind them.
         index: of the log, as in `RecordFit`.
+        middle: of what is compared, s on the clock of all records; None where not known.
     """
 
     source: str
@@ -68,6 +69,7 @@ class SineLog:
     columns: Array = field(repr=False)
     triangle: Array = field(repr=False)
     index: int = field(kw_only=True)
+    middle: float | None = None
 
     @property
     def periods(self) -> int:

@@ -136,7 +136,7 @@ class SteppedSines:
         return thesis_deviation(measured, self.response(answers, column), self.reference)
 
     def nuisance_columns(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:
-        """See Observation. A drift is not seen within a sine that is steady."""
+        """See Observation. A drift is the same for all of a sine that is steady: what it has come to by its middle."""
         parts = []
         for log, answer in zip(self.logs, answers, strict=True):
             columns = np.tensordot(log.onto, self._by_error(log, answer, nuisances), 1)
@@ -156,9 +156,9 @@ class SteppedSines:
         """What one unit of each nuisance adds to a period of the orbit, (points, n_y, k)."""
         found = np.zeros((*answer.values.shape, len(nuisances)))
         for k, one in enumerate(nuisances):
-            if one.dataset == self.dataset and one.signal in self.channels and one.kind is not NuisanceKind.DRIFT:
+            if one.dataset == self.dataset and one.signal in self.channels:
                 j = self.channels.index(one.signal)
-                found[:, j, k] = _effect(one.kind, answer.values[:, j], log.sine.frequency)
+                found[:, j, k] = _effect(one.kind, answer.values[:, j], log)
         return found
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
@@ -212,14 +212,16 @@ class SteppedSines:
         return ResponseFit(self.dataset, self.use, ResponseComparison(measured, model, deviations))
 
 
-def _effect(kind: NuisanceKind, orbit: Array, frequency: float) -> Array:
+def _effect(kind: NuisanceKind, orbit: Array, log: SineLog) -> Array:
     """What one unit of a sensor's error adds to a period of an orbit (points,)."""
     if kind is NuisanceKind.GAIN:
         return orbit
     if kind is NuisanceKind.OFFSET:
         return np.ones_like(orbit)
+    if kind is NuisanceKind.DRIFT:
+        return np.full_like(orbit, log.middle or 0.0)
     order = np.fft.rfftfreq(orbit.size, 1 / orbit.size)
-    return -np.fft.irfft(2j * np.pi * frequency * order * np.fft.rfft(orbit), orbit.size)
+    return -np.fft.irfft(2j * np.pi * log.sine.frequency * order * np.fft.rfft(orbit), orbit.size)
 
 
 @dataclass(frozen=True, eq=False)
@@ -243,7 +245,8 @@ def swing(context: Context, record: MeasuredRecord, index: int) -> Swing:
     others = {c: Signal.constant(float(np.mean(data[c]))) for c in columns if c != swinging}
     settle = float(log.measured.time[0]) - sine.onset
     middle = None if record.begin is None else record.begin + float(np.mean(log.measured.time) - data.time[0])
-    return Swing(record, log, steady_run(context, record.source, swinging, sine, outputs, others, settle, middle))
+    run = steady_run(context, record.source, swinging, sine, outputs, others, settle, middle)
+    return Swing(record, replace(log, middle=middle), run)
 
 
 def _settled(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan, index: int) -> SineLog:

@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 from tempfile import mkdtemp
 
+import numpy as np
 import pytest
 
 from pysim.diagnosis import diagnose
@@ -13,11 +14,11 @@ from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.progress import Progress
 from pysim.diagnosis.refit import FinalFit, begin
-from pysim.diagnosis.search import Search
+from pysim.diagnosis.search import Compared, Search, Step
 from pysim.diagnosis.session import session
 from pysim.diagnosis.settings import Settings
 from pysim.effects import read_catalogue
-from pysim.types import Record
+from pysim.types import MeasuredRecord, Record
 from pysim.types.answer import Verdict
 from pysim.workflow.variants import Variants
 from tests.known_answers.plants import PLANTS
@@ -134,3 +135,61 @@ def test_a_run_is_given_up_by_what_the_longest_log_takes_be_it_a_choosing_one() 
         search.fit_base()
         given_up.append(search.fine.solver.max_steps)
     assert given_up[1] > 4 * given_up[0]
+
+
+def swung(d: float, periods: int) -> tuple[Search, FinalFit]:
+    """A mass on a spring with a damper d (N.s/m), swung at 1.5 Hz from rest on, logged for some periods: its base fit.
+
+    Closed form: what lasts, and what dies away with d/(2 m).
+    """
+    mass, k, force, f = 1.0, 40.0, 2.0, 1.5
+    w, decay = 2 * math.pi * f, d / (2 * mass)
+    own = math.sqrt(k / mass - decay**2)
+    gain = force / complex(k - mass * w**2, d * w)
+    time = np.arange(0.0, periods / f, 0.01)
+    begun, speed = gain.imag, w * gain.real
+    dying = np.exp(-decay * time) * (-begun * np.cos(own * time) - (speed + decay * begun) / own * np.sin(own * time))
+    x = np.imag(gain * np.exp(1j * w * time)) + dying + 1e-3 * np.random.default_rng(1).standard_normal(time.size)
+    values = np.column_stack([force * np.sin(w * time), x])
+    log = MeasuredRecord(
+        "sine.txt", "frequency-response", "fit", Record(time, values, ("F", "x"), ("N", "m")), 0.0, force, f
+    )
+    wave = measured("mass", {}, {"d": d, "k": k}, fit=(1,), validate=())
+    opened = given("mass", replace(wave, records=(log, *wave.records)), [])
+    search = Search(Models(opened), FINE, Settings(), Progress(lambda told: None), Checkpoint(None, ""))
+    return search, search.fit_base()
+
+
+@pytest.mark.parametrize(("d", "periods", "transient"), [(0.3, 6, True), (0.3, 90, False), (4.0, 8, False)])
+def test_a_sine_that_is_not_steady_when_its_log_ends_is_run_as_the_bench_ran_it(
+    d: float, periods: int, transient: bool
+) -> None:
+    search, base = swung(d, periods)
+    assert (base.candidate.transient, search.models.all_transient) == (transient, transient)
+    assert base.values["d"] == pytest.approx(d, rel=0.03)
+    assert base.values["k"] == pytest.approx(40.0, rel=0.003)
+    assert search.floors.with_(base).over(base)[("mass", "x")] < 1.05
+
+
+@pytest.mark.parametrize("first", ["mass.friction", "mass.drag"])
+def test_what_came_in_first_is_exchanged_for_what_does_better_beside_the_rest(first: str) -> None:
+    """Friction and a bias are missing; whichever of friction and drag came in first, friction stays."""
+    data = measured("mass", {"mass.friction": {"F_c": 0.4}, "mass.bias": {"F_b": 0.5}})
+    opened = given("mass", data, ["mass.friction", "mass.drag", "mass.bias"], initial="near rest")
+    search = Search(Models(opened), FINE, opened.settings, Progress(lambda told: None), Checkpoint(None, ""))
+    base = search.fit_base()
+    search.floors = search.floors.with_(base)
+    known = {effect.name: effect for effect in opened.catalogue}
+    fits = {name: search.with_effects(base, [known[name]]) for name in ("mass.friction", "mass.drag")}
+    rivals = [Compared(fit, name, search.test(base, fit)) for name, fit in fits.items()]
+    rivals.sort(key=lambda one: one.added != first)
+    second = search.with_effects(fits[first], [known[first], known["mass.bias"]])
+    steps = [
+        Step(fits[first], first, rivals[0].test, False, tuple(rivals)),
+        Step(second, "mass.bias", search.test(fits[first], second), False, ()),
+    ]
+    found = search._exchanged(base, steps)
+    assert [step.added for step in found] == ["mass.friction", "mass.bias"]
+    assert [step.model.names for step in found] == [("mass.friction",), ("mass.friction", "mass.bias")]
+    assert found[-1].model.values["mass.friction", "F_c"] == pytest.approx(0.4, rel=0.1)
+    assert found[0].rivals[0].added == "mass.friction"

@@ -19,7 +19,7 @@ from pysim.identify.greybox import (
 from pysim.identify.greybox.comparison import compared
 from pysim.identify.greybox.residuals import Carried, Point
 from pysim.simulate import Esdirk
-from pysim.types import MeasuredRecord, Model
+from pysim.types import MeasuredRecord, Model, Record
 from tests.pysim.identify.greybox import measurements as m
 
 TIGHT = Simulation(solver=Esdirk(rtol=1e-8, atol=1e-8), mismatch=1e-7)
@@ -85,6 +85,26 @@ def test_an_error_that_is_known_counts_as_a_free_one_of_that_size(lag: Model, ki
     shown = compared(this, x, TIGHT, errors=((error, size),)).records
     apart = [record.measured["y"] - record.simulated["y"] for record in shown]
     assert sum(float(rest @ rest) for rest in apart) == pytest.approx(float(known.squares.sum()), rel=1e-3)
+
+
+def test_a_drift_is_seen_from_sine_to_sine(lag: Model) -> None:
+    """Sines of a sensor that goes off by 1e-3 a second, logged an hour apart."""
+    rate, drifted, still = 1e-3, list[MeasuredRecord](), list[MeasuredRecord]()
+    for k, f in enumerate((0.5, 1.0, 2.0)):
+        record = replace(m.sine_log(2.0, 0.7, f, seed=k, noise=0.0), begin=3600.0 * k)
+        assert isinstance(record.data, Record)
+        values = record.data.values.copy()
+        values[:, 1] += rate * (3600.0 * k + record.data.time - record.data.time[0])
+        drifted.append(replace(record, data=replace(record.data, values=values)))
+        still.append(record)
+    of, one = Treatment(initial="rest"), Nuisance(NuisanceKind.DRIFT, "lag", "y", 0.05)
+    squares = []
+    for logs, known in ((drifted, ()), (drifted, ((one, rate),)), (still, ())):
+        this = problem(lag, [m.dataset(logs)], ["K", "T"], treatment=of)
+        squares.append(float(at(this, this.space.to_search(np.array([1.9, 0.7])), known=known).squares.sum()))
+    apart, told, right = squares
+    assert apart > 10 * right
+    assert told == pytest.approx(right, rel=0.02)
 
 
 def test_a_level_never_falls_below_its_floor_nor_rises_above_its_residual(lag: Model) -> None:
