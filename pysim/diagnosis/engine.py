@@ -159,8 +159,10 @@ class _Account:
     complete: bool
 
 
-def _account(session: Session, found: Found, models: Named) -> _Account:
-    steps = [error_step(name, fit, session, found.floors.floors, fitted=name != PRIOR) for name, fit in models]
+def _account(session: Session, found: Found, models: Named, simulation: Simulation) -> _Account:
+    steps = [
+        error_step(name, fit, session, found.floors.floors, simulation, fitted=name != PRIOR) for name, fit in models
+    ]
     last, notes = steps[-1][0], dict.fromkeys(note for _, own in steps for note in own)
     rest = follows(found.final, session.dataset, session.treatment.noise.blocks)
     heard = tone(found.final, session.dataset, session.settings.false_alarm)
@@ -191,7 +193,7 @@ def _answer(
     found = replace(found, base=found.base if found.final.names else final, final=final)
     untouched = [(PRIOR, search.as_it_is()), *([(REFIT, found.base)] if refitted else [])]
     named: Named = [*untouched, *_kept(found, models, final, search)]
-    account = _account(session, found, named)
+    account = _account(session, found, named, search.fine)
     complete, estimates = account.complete, held_still(final)[0] if refitted else ()
     wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and not complete)
     wanted &= session.build_law is not None
@@ -199,7 +201,7 @@ def _answer(
     if learning is not None and learning.law is not None:
         law, complete = learning.law, False  # what the law is has no name yet
         found, named = _with_law(found, named, law)
-        account = _account(session, found, named)
+        account = _account(session, found, named, search.fine)
         estimates = law.of_the_model(account.history[-1].estimates)
         account = replace(account, history=(*account.history[:-1], replace(account.history[-1], estimates=estimates)))
     history = account.history

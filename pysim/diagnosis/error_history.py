@@ -22,17 +22,24 @@ Array = NDArray[np.float64]
 
 
 def error_step(
-    name: str, fit: FinalFit, session: Session, floors: Mapping[Channel, NoiseFloor], *, fitted: bool = True
+    name: str,
+    fit: FinalFit,
+    session: Session,
+    floors: Mapping[Channel, NoiseFloor],
+    simulation: Simulation,
+    *,
+    fitted: bool = True,
 ) -> tuple[ErrorStep, tuple[Note, ...]]:
     """One model beside every record, those of use "test" too; and what could not be simulated.
 
     Args:
         floors: what the errors are counted in.
+        simulation: as fine as errors need; parameters may have been found by a finer one.
         fitted: whether the model was fitted; the untouched one has no intervals.
     """
-    parts = [beside(fit, fit.simulation)]
+    parts = [beside(fit, simulation)]
     if session.unseen is not None:
-        parts.append(_unseen(fit, session, fit.simulation))
+        parts.append(_unseen(fit, session, simulation))
     noise = {channel: floor.sd for channel, floor in floors.items()}
     records = [with_noise(record, noise) for part in parts for record in part.records]
     responses = tuple(response for part in parts for response in part.responses)

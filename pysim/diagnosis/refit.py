@@ -220,7 +220,7 @@ def integrated(fit: FinalFit, refinements: int) -> FinalFit:
         start = begin(fit.candidate, fit.values, fit.simulation.finer(), fit)
         if not start.good:
             break
-        fit = converged(start)
+        fit = advance(start, _optimiser().max_iterations)
         if start.point.cost - fit.point.cost < _optimiser().tolerance:
             break
     return fit

@@ -320,36 +320,21 @@ class Search:
             least, have = self.settings.promising * first.test.gain, present.candidate.labels
             others = [one for one in others if one.test.gain >= least and one.added not in have]
             fits = {first.added: present} | {one.added: self._in_place(present, first.added, one) for one in others}
-            shape = self.settings.small * first.test.gain if self.is_done(present) else 0.0  # what more parameters gain
-            worth = {
-                name: self._worth(base, fit) - shape * (fit.candidate.size > present.candidate.size)
-                for name, fit in fits.items()
-                if fit.good
-            }
-            worth[first.added] += self.settings.anew
-            chosen = max(worth, key=lambda name: worth[name])
-            best = fits[chosen]
-            alike = [
-                name for name, fit in fits.items() if name in worth and fit is not best and self._are_ties(best, fit)
-            ]
-            ties = (*alike, *(name for name in first.ties if name not in fits))
-            ranked = sorted(step.rivals, key=lambda one: one.added != chosen)
-            ranked[0] = replace(ranked[0], ties=ties)
-            steps[k] = replace(step, added=chosen, test=ranked[0].test, rivals=tuple(ranked))
-            for j in reversed(range(k, len(steps) if best is not present else k)):
-                steps[j] = replace(steps[j], model=self._keep(best))
-                best = self._without(best, steps[j].added) if j > k else best
+            best, *_ = self._ordered(
+                [Compared(fit, name, self.test(base, fit)) for name, fit in fits.items() if fit.good]
+            )
+            ranked = sorted(step.rivals, key=lambda one: one.added != best.added)
+            untried = [name for name in first.ties if name not in fits and name not in have]
+            ranked[0] = replace(ranked[0], ties=(*best.ties, *untried))
+            steps[k] = replace(step, added=best.added, test=ranked[0].test, rivals=tuple(ranked))
+            model = best.fit if best.fit.ended else converged(best.fit)
+            for j in reversed(range(k, len(steps) if best.fit is not present else k)):
+                steps[j] = replace(steps[j], model=self._keep(model))
+                model = self._without(model, steps[j].added) if j > k else model
         return steps
 
-    def _are_ties(self, best: FinalFit, other: FinalFit) -> bool:
-        """Whether the data do not tell a model from the best one, as far as the other promises to come."""
-        if other.candidate.transient != best.candidate.transient:
-            return False
-        reach = rivals.reach(rivals.of(best), rivals.of(other), self.settings.tie)
-        return other.expected - best.point.cost < reach
-
     def _in_place(self, present: FinalFit, name: str, rival: Compared) -> FinalFit:
-        """The model with a rival in place of what it has by a name, refitted as far as it promises to do better."""
+        """The model with a rival in place of what it has by a name, refitted to the end where it may do as well."""
         new = rival.fit.candidate.parts[rival.added]
         parts = [new if label == name else part for label, part in present.candidate.parts.items()]
         candidate = self.models.of_parts(parts, transient=present.candidate.transient)
@@ -359,18 +344,14 @@ class Search:
 
         def found() -> FinalFit:
             fit = advance(begin(candidate, values, present.simulation, present), self.settings.heat)
-            return converged(fit) if fit.good and fit.expected < present.point.cost else fit
+            if not fit.good:
+                return fit
+            reach = rivals.reach(rivals.of(present), rivals.of(fit), self.settings.tie)
+            return converged(fit) if fit.expected < present.point.cost + reach else fit
 
         return self._once(
             f"{rival.added} in place of {name} of {' + '.join(present.candidate.labels)}", found, candidate
         )
-
-    def _told_apart(self, best: FinalFit, other: FinalFit) -> bool:
-        """Whether the data tell a model from the best one, as far as the other promises to come."""
-        if not other.good or other.candidate.transient != best.candidate.transient:
-            return True
-        reach = rivals.reach(rivals.of(best), rivals.of(other), self.settings.tie)
-        return other.expected - best.point.cost >= reach
 
     def expand(self, present: FinalFit) -> Table:
         """All that may be added to a model, refitted, the best first; and what was only screened."""
