@@ -283,14 +283,18 @@ def _next_test(session: Session, found: Found) -> tuple[NextTest | None, list[No
 
 
 def _alone(fit: FinalFit, search: Search, *, transient: bool = False) -> FinalFit:
-    """The model with its effects and no others, refitted to the end from where it stands; slopes as they are there."""
+    """The model with its effects and no others, refitted to the end from where it stands; slopes as they are there.
+
+    By ten times finer runs where the search had other forms of its laws.
+    """
     try:
         candidate = search.models.alone(fit.candidate.effects, fit.candidate.nuisances, transient=transient)
     except BadInput:
         return fit
-    finest = search.fine.finer()
     alike = candidate.transient == fit.candidate.transient and not candidate.has_events
-    again = converged(begin(candidate, fit.values, finest, fit if alike else None))
+    same = alike and not any(effect.smooth for effect in candidate.effects)
+    simulation = fit.simulation if same else search.fine.finer()
+    again = converged(begin(candidate, fit.values, simulation, fit if alike else None))
     return again if again.good else fit
 
 

@@ -14,8 +14,11 @@ from pysim.diagnosis.secants import Secants
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import GaussNewton, Nuisance, Point, Simulation
 from pysim.identify.greybox.beginning import first_point
+from pysim.identify.greybox.identifiability import EXACT
+from pysim.identify.greybox.least_squares import damped_step
 from pysim.identify.greybox.optimiser import Bounds, State
 from pysim.identify.greybox.residuals import Carried
+from pysim.identify.greybox.triangle import triangle
 from pysim.identify.greybox.uncertainty import at_bounds
 from pysim.types import FitOutcome
 
@@ -226,6 +229,22 @@ def integrated(fit: FinalFit, refinements: int) -> FinalFit:
     return fit
 
 
+def moved(fit: FinalFit, other: Point) -> Point:
+    """A point beside other measurements, to first order moved as near to them as the fit leaves its parameters open.
+
+    What they cost besides is what the move costs the fit. Source: Rasmussen and Williams 2006, Gaussian Processes for
+    Machine Learning, Eq. 2.9: the predictive density, but for its normalisation.
+    """
+    n, bounds = fit.point.x.size, _bounds(fit.candidate)
+    own = np.column_stack([fit.point.triangle[:n, :n], np.zeros(min(n, len(fit.point.triangle)))])
+    both = triangle([own, np.column_stack([other.jacobian, other.residual])])
+    low, high = np.minimum(bounds.lower - other.x, 0.0), np.maximum(bounds.upper - other.x, 0.0)
+    p = damped_step(both[:n, :n], -both[:n, n], EXACT, low, high)
+    residual = other.residual + other.jacobian @ p
+    squares = float(residual @ residual + np.sum((own[:, :n] @ p) ** 2))
+    return replace(other, residual=residual, cost=other.cost + 0.5 * (squares - other.square))
+
+
 @dataclass(frozen=True)
 class Runner:
     """A rival of a race.
@@ -249,8 +268,8 @@ def race(
 ) -> list[FinalFit]:
     """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
 
-    One that can gain too little beside what others have gained does not start, or stays where it starts. Of several
-    starts of one candidate the one that promises more goes on.
+    One that can gain too little beside what others have gained does not start, or stays where it is. Of several starts
+    of one candidate the one that promises more goes on.
 
     Args:
         runners: the most promising first.
@@ -278,11 +297,14 @@ def race(
             break
         resting += [one for one in running if not any(one is other for other in going)]
         running = going
-    ranked = sorted(_best_starts([*running, *resting]), key=_promise)
-    ended = [
-        (finish(one[0]), one[1]) if k < settings.finalists and -_promise(one) >= least else one
-        for k, one in enumerate(ranked)
-    ]
+    ended: list[tuple[FinalFit, float]] = []
+    reached, alike = 0.0, 1 - settings.small
+    for k, (fit, before) in enumerate(sorted(_best_starts([*running, *resting]), key=_promise)):
+        most = before - fit.point.cost + (fit.point.cost - fit.expected) / settings.promising
+        if k < settings.finalists and before - fit.expected >= least and most >= alike * reached:
+            fit = finish(fit)
+        reached = max(reached, before - fit.point.cost)
+        ended.append((fit, before))
     return [fit for fit, before in sorted(ended, key=lambda one: one[0].point.cost - one[1])]
 
 

@@ -17,7 +17,7 @@ from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, advance, begin, begin_anywhere, converged, race
+from pysim.diagnosis.refit import FinalFit, advance, begin, begin_anywhere, converged, moved, race
 from pysim.diagnosis.screen import Screened, best_of_each, screen, screened
 from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts, with_sensor_errors
@@ -510,12 +510,16 @@ class Search:
         return cost - before, rivals.reach(own, other, self.settings.tie)
 
     def _beside_unfitted(self, fit: FinalFit) -> tuple[rivals.Rows | None, float]:
-        """A fit beside the logs that may choose: their rows, none where one cannot be simulated, and nats."""
+        """A fit beside the logs that may choose, as near to them as it leaves its parameters open: rows, none where one
+        cannot be simulated, and nats."""
         known = self._unfitted.get(_key(fit.candidate))
         if known is None or known[0] is not fit:
             residuals = fit.candidate.residuals(fit.simulation, "validate")
             residuals = replace(residuals, nuisances=(), known=fit.sensor_errors)
-            point = settled_initial_states(residuals, fit.candidate.model, fit.candidate.space, fit.point.x)
+            model, space = fit.candidate.model, fit.candidate.space
+            point = settled_initial_states(residuals, model, space, fit.point.x)
+            if point.good and not fit.candidate.has_events:
+                point = moved(fit, residuals.evaluate(model, space, fit.point.x, point.carried))
             rows = rivals.rows(fit.candidate, residuals, point) if point.good else None
             known = self._unfitted[_key(fit.candidate)] = fit, rows, point.cost
         return known[1:]

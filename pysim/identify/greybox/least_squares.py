@@ -17,7 +17,8 @@ from pysim.types import BadInput, FitOutcome
 Array = NDArray[np.float64]
 
 # Actual over predicted gain below which the radius shrinks, above which it doubles, and below which a step is not
-# taken. Source: Nocedal and Wright 2006, Algorithm 4.1.
+# taken. Source: Nocedal and Wright 2006, Algorithm 4.1. After a step that failed it grows up to the second of these
+# times that one's length, forgotten by as much each time: in a curved valley every second step would be too long.
 _POOR, _GOOD, _NONE = 0.25, 0.75, 1e-4
 _SHORTEST = 1e-9  # radius below which a search has stalled
 _BISECTIONS = 20
@@ -87,13 +88,13 @@ class GaussNewton:
         if proposal.predicted < blur and ratio <= _NONE and actual > -blur:
             memory = {**state.memory, "radius": _POOR * length}
             return self._lost(replace(state, best=trial, tried=state.tried + 1, memory=memory), bounds)
-        share = min(2 * proposal.share, 1.0)
+        share, failed = min(2 * proposal.share, 1.0), state.memory.get("failed", math.inf)
         if ratio < _POOR:
             shorter = _best_share(state.best, trial, proposal) if trial.good else _POOR
-            radius, share = length * shorter, proposal.share * shorter
+            radius, share, failed = length * shorter, proposal.share * shorter, length
         elif ratio > _GOOD and length > 0.8 * radius:
-            radius = 2 * radius
-        memory = {**state.memory, "radius": radius, "share": share if state.best.gain > 0 else 1.0}
+            radius, failed = max(radius, min(2 * radius, _GOOD * failed)), failed / _GOOD
+        memory = {**state.memory, "radius": radius, "failed": failed, "share": share if state.best.gain > 0 else 1.0}
         state = replace(state, tried=state.tried + 1, memory=memory)
         if ratio > _NONE:
             taken = replace(state, best=trial, memory={**state.memory, "length": length})
