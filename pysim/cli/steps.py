@@ -108,7 +108,7 @@ def write_model(given: Given, result: Diagnosed, folder: Path) -> Diagnosed:
     """Write the fitted values, and class and FMU where effects were added."""
     from pysim.workflow import write_extended
 
-    files = write_extended(result.found, given.opened, folder, place=given.output)
+    files = write_extended(result.found, given.opened, folder)
     return replace(result, files={name: path.name for name, path in files.items()})
 
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from pysim.io import write_file
 from pysim.types import BadInput, Effect, Model
-from pysim.workflow.extended import PARAMETERS, extended_name, parameters_text
+from pysim.workflow.extended import PARAMETERS, classes_beside, extended_name, parameters_text
 from pysim.workflow.variants import Variants
 
 
@@ -48,10 +48,7 @@ def export_model(
         files |= {"modelica": folder / f"{name}.mo", "fmu": folder / f"{name}.fmu"}
         about = f"{variants.class_name}{' with ' if effects else ''}{', '.join(effect.name for effect in effects)}."
         variants.write(effects, folder, files["fmu"], name, own, about, fmi=fmi, platforms=platforms)
-        for library in variants.libraries:
-            if library.is_file() and any(library.stem == effect.class_name for effect in effects):
-                files[library.stem] = folder / library.name
-                shutil.copyfile(library, files[library.stem])
+        files |= {law.stem: law for law in classes_beside(variants, effects, folder)}
     if values:
         files["parameters"] = folder / PARAMETERS
         write_file(files["parameters"], parameters_text(f"Of {files['fmu'].stem}.", values))

@@ -2,32 +2,30 @@
 
 from __future__ import annotations
 
+import shutil
 import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from pysim.io import shown_unit, write_file
 from pysim.present.diagnosis.words import limits_sentence
-from pysim.types import Dataset, Diagnosis, LearnedLaw
+from pysim.present.notes import listed
+from pysim.types import Dataset, Diagnosis, Effect, LearnedLaw
 from pysim.workflow.learned import law_file, with_laws
 from pysim.workflow.session import SessionParts
-from pysim.workflow.shell import command_line
+from pysim.workflow.shell import quoted
+from pysim.workflow.variants import Variants
 
 PARAMETERS = "parameters.toml"  # the fitted values
 _WIDTH = 110
 
 
-def write_extended(
-    found: Diagnosis, parts: SessionParts, folder: Path, *, place: Path | None = None
-) -> dict[str, Path]:
+def write_extended(found: Diagnosis, parts: SessionParts, folder: Path) -> dict[str, Path]:
     """Write the fitted values, and the class and its FMU where effects or laws were added; name -> path, none without a
     refit.
 
-    Nothing of the user's files is changed: the class extends theirs.
+    Nothing of the user's files is changed: the class extends theirs. Laws that have a file of their own come along.
 
-    Args:
-        place: where the folder's files will lie in the end, for the line that compiles the class; the folder by
-            default.
     Raises:
         BadInput: the folder cannot be written.
     """
@@ -39,20 +37,33 @@ def write_extended(
         states, fmu = parts.model.abilities.states, folder / f"{name}.fmu"
         values = {key: value for key, value in {**parts.overrides, **fitted}.items() if key not in states}
         inside = [law for law in found.learned if folder / law_file(law) in variants.libraries]
-        variants.write(effects, folder, fmu, name, values, _comment(found, parts, place or folder, name, inside))
-        files = {"modelica": folder / f"{name}.mo", "fmu": fmu}
+        laws = classes_beside(variants, effects, folder)
+        variants.write(
+            effects, folder, fmu, name, values, _comment(found, parts, [folder / f"{name}.mo", *laws], inside)
+        )
+        files = {"modelica": folder / f"{name}.mo", "fmu": fmu, **{law.stem: law for law in laws}}
         about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."
     else:
         about = f"{parts.model_name}, refitted to data set {parts.dataset.name}. {_set_before(parts)}"
     for k, law in enumerate(law for law in found.learned if law.modelica):
         key = "learned" if k == 0 else f"learned_{k + 1}"
         files[key] = folder / law_file(law)
-        if variants is None or files[key] not in variants.libraries:
+        if files.pop(files[key].stem, None) is None:
             write_file(files[key], law.modelica)
     if fitted:
         files["parameters"] = folder / PARAMETERS
         write_file(files["parameters"], parameters_text(f"Of {about}", fitted))
     return files
+
+
+def classes_beside(variants: Variants, effects: Sequence[Effect], folder: Path) -> list[Path]:
+    """Files of classes that the extended one needs beside the user's libraries, once they lie in the folder too."""
+    own = {effect.class_name for effect in effects}
+    files = {folder / one.name: one for one in variants.libraries if one.is_file() and one.stem in own}
+    for copy, file in files.items():
+        if copy.resolve() != file.resolve():
+            shutil.copyfile(file, copy)
+    return [*files]
 
 
 def _set_before(parts: SessionParts) -> str:
@@ -77,23 +88,24 @@ def _last(name: str) -> str:
     return name.rpartition(".")[2]
 
 
-def _comment(found: Diagnosis, parts: SessionParts, folder: Path, name: str, laws: Sequence[LearnedLaw]) -> str:
+def _comment(found: Diagnosis, parts: SessionParts, files: Sequence[Path], laws: Sequence[LearnedLaw]) -> str:
     """What it is, from which data, and when not to trust it.
 
     Args:
+        files: of the class, and of those that come along.
         laws: learned ones that are in it.
     """
-    libraries = [folder / f"{name}.mo", *(folder / law_file(law) for law in laws), *parts.libraries]
-    inside = {law.slot for law in laws}
-    own = [word for library in libraries for word in ("--library", str(library.resolve()))]
-    build = command_line([name, *own], folder, program="fmu-build")  # whole paths, as it may be pasted anywhere
+    name, inside = files[0].stem, {law.slot for law in laws}
+    places = list(dict.fromkeys(one.name for one in (*files, *parts.libraries)))
+    build = quoted(["fmu-build", name, *(word for one in places for word in ("--library", one))])
     added = [one.effect.name for one in found.effects]
     added += [f"a learned law at {law.slot} over {law.argument}" for law in laws]
     paragraphs = [
         f"{name}: {parts.model_name} with {', '.join(added)}.",
         f"Every number below was fitted to the records of data set {parts.dataset.name} that are marked fit; intervals "
         "and evidence are in report.html beside this file.",
-        f"Compiles by: {build}",
+        *([f"It needs {listed(places[1:])}."] if places[1:] else []),
+        f"Compiles where these lie by: {build}",
         "Do not trust it",
         *(
             f"- as the fitted model: it lacks the learned law at {law.slot}"

@@ -90,15 +90,9 @@ def open_session(
     opened = model if isinstance(model, Model) else model_of(model, libraries)
     dataset = data if isinstance(data, Dataset) else data_of(data)
     parts = session_parts(
-        opened,
-        dataset,
-        libraries=libraries,
-        free=free,
-        bounds=bounds or {},
-        values=values or {},
-        effects=effects,
+        opened, dataset, libraries=libraries, free=free, bounds=bounds or {}, values=values or {}, effects=effects,
         reference_hz=reference_of(dataset.responses(), reference_hz),
-    )
+    )  # fmt: skip
     return session_of(parts, settings)
 
 
@@ -143,19 +137,9 @@ def session_parts(
     variants = Variants(known.class_name, tuple(with_standard(libraries))) if known.class_name else None
     places = tuple(Path(one) for one in libraries)
     return SessionParts(
-        model,
-        dataset,
-        known,
-        catalogue,
-        variants,
-        chosen,
-        bounds,
-        priors or {},
-        overrides,
-        reference_hz,
-        places,
+        model, dataset, known, catalogue, variants, chosen, bounds, priors or {}, overrides, reference_hz, places,
         tuple(notes),
-    )
+    )  # fmt: skip
 
 
 def session_of(parts: SessionParts, settings: Settings | None = None) -> Session:

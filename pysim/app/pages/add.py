@@ -151,21 +151,11 @@ def _parameters(answer: Answer) -> None:
             [name, one["unit"], _number(first and first["start"]), *_three(first), *(_three(last) if after else [])]
         )
         if one["lower"] is not None and one["upper"] is not None:
-            drawn.append(
-                {
-                    "name": name,
-                    "lower": one["lower"],
-                    "upper": one["upper"],
-                    "before": _point(first),
-                    "after": _point(last),
-                }
-            )
+            ends = {key: one[key] for key in ("lower", "upper")}
+            drawn.append({"name": name, **ends, "before": _point(first), "after": _point(last)})
     with card("Parameters before and after"):
-        text(
-            "p",
-            "Estimates with 95 percent intervals; a dash where the measurements do not determine one by itself.",
-            "small",
-        )
+        told = "Estimates with 95 percent intervals; a dash where the measurements do not determine one by itself."
+        text("p", told, "small")
         if drawn:
             Chart(parameters_chart(drawn), "Parameters between their bounds", height=80 + 27 * len(drawn))
         Table("Parameters", columns, rows)

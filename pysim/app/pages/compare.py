@@ -67,11 +67,8 @@ def _top(desk: Desk) -> None:
             for step in answer.data["error"]:
                 value = step["fit"] or step["validate"]
                 name = step_name(step["step"])
-                text(
-                    "span",
-                    f"{name}: {value:.2f}" if value else name,
-                    f"chip {'good' if step['criteria'] and step['passes'] else ''}",
-                )
+                kind = f"chip {'good' if step['criteria'] and step['passes'] else ''}"
+                text("span", f"{name}: {value:.2f}" if value else name, kind)
 
 
 def _maps(desk: Desk, view: _View) -> None:
@@ -132,11 +129,8 @@ def _record(desk: Desk, view: _View) -> None:
         with box("row end"):
             text("h2", source)
             text("span", USES[logs[number].use], "chip")
-        text(
-            "p",
-            "Drag to zoom, double click for all; with the keyboard: arrows, + and −, 0. Grey holds 95 % of noise.",
-            "small",
-        )
+        told = "Drag to zoom, double click for all; with the keyboard: arrows, + and −, 0. Grey holds 95 % of noise."
+        text("p", told, "small")
         panels = len(overlay.names) * (1.6 if overlay.models else 1.0)
         label, height = f"{source}: measured and simulated over time", round(120 + 165 * panels)
         record_chart(overlay, of, number, label, height)
@@ -210,11 +204,8 @@ def _bode(desk: Desk, view: _View) -> None:
     with card():
         with box("row end"):
             text("h2", "Frequency responses")
-            text(
-                "span",
-                "passes Table 1.3" if last["passes"] else "beyond Table 1.3",
-                f"chip {'good' if last['passes'] else 'bad'}",
-            )
+            words, kind = ("passes", "good") if last["passes"] else ("beyond", "bad")
+            text("span", f"{words} Table 1.3", f"chip {kind}")
         options = [(str(k), words) for k, words in enumerate(_points(tests, check.dataset))]
         segments(options, str(number), lambda key: _set(view, response=int(key)), "Operating point")
         if last["message"]:

@@ -230,13 +230,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     if check is None or not check.records:
         return
     columns = [("record", "words"), (NOT_FITTED, "tick"), ("kind", "words"), ("rows", "number"), ("s", "number")]
-    columns += [
-        ("samples/s", "number"),
-        ("offset", "number"),
-        ("amplitude", "number"),
-        ("Hz", "number"),
-        ("look at", "words"),
-    ]
+    columns += [(words, "number") for words in ("samples/s", "offset", "amplitude", "Hz")] + [("look at", "words")]
     held = sum(record.use != "fit" for record in check.records)
     read = [record.source for record in check.records]
     with card(f"{counted(len(check.records), 'record')}, {held} {NOT_FITTED}"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from urllib.parse import quote
 
 from nicegui import ui
@@ -17,7 +18,7 @@ _FILES = (
     (
         "modelica",
         "Modelica class",
-        "Yours extended by what was added, with the fitted values; your own files stay as they are.",
+        "Yours extended, with the fitted values. Your own files stay; it needs all that is here.",
     ),
     ("fmu", "FMU", "The same class compiled; its defaults are the fitted values."),
     ("parameters", "Parameters", "The fitted values as lines NAME = VALUE, for --parameters."),
@@ -58,25 +59,31 @@ def commands(desk: Desk) -> str:
     return "\n".join(command_line(words, desk.project.folder) for words in done or [("data", "check", "data")])
 
 
+def classes(files: Mapping[str, str]) -> list[str]:
+    """Where the extended class is, and all that it needs beside the user's libraries."""
+    return sorted((one for one in files.values() if one.endswith(".mo")), key=lambda one: one != files.get("modelica"))
+
+
 def _files(answer: Answer) -> None:
     files = {name: str(path) for name, path in answer.data["files"].items()}
     with box("files"):
         for key, title, about in _FILES:
-            if key in files:
+            paths = classes(files) if key == "modelica" else [files[key]] if key in files else []
+            if paths:
                 with box("file"):
                     text("h2", title)
                     text("p", about, "small")
-                    text("span", files[key], "mono path")
-                    words = "Open" if key == "report" else "Download"
-                    link = text("a", words, "plain")
-                    link._props["href"] = f"/result/{quote(answer.folder.name)}/{quote(files[key])}"
+                    for path in paths:
+                        text("span", path, "mono path")
+                        link = text("a", "Open" if key == "report" else "Download", "plain")
+                        link._props["href"] = f"/result/{quote(answer.folder.name)}/{quote(path)}"
+                        link._props["target" if key == "report" else "download"] = "_blank" if key == "report" else ""
                     if key == "plan":
                         played(answer)
-                    link._props["target" if key == "report" else "download"] = "_blank" if key == "report" else ""
-    source = answer.folder / files["modelica"] if "modelica" in files else None
-    if source is not None and source.is_file():
-        with card("The class"):
-            text("pre", source.read_text(encoding="utf-8"), "code").props('tabindex="0"')
+    for source in (answer.folder / path for path in classes(files)):
+        if source.is_file():
+            with card(source.stem):
+                text("pre", source.read_text(encoding="utf-8"), "code").props('tabindex="0"')
 
 
 def _copy(lines: str) -> None:

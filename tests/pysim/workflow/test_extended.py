@@ -10,16 +10,24 @@ from typing import Any
 
 import pytest
 
-import pysim
 from fmu_build.cli import main as fmu_build_main
 from pysim.cli.options import parameters_of
 from pysim.diagnosis import add
 from pysim.io import read_model
 from pysim.present.diagnosis.answer import relative_files
-from pysim.types import Diagnosis, Effect
-from pysim.workflow import SessionParts, Variants, model_of, session_of, session_parts, write_extended
+from pysim.types import Diagnosis, Effect, Model
+from pysim.workflow import (
+    LawPlace,
+    SessionParts,
+    Variants,
+    effect_class,
+    effects_of,
+    model_of,
+    session_of,
+    session_parts,
+    write_extended,
+)
 from pysim.workflow.extended import extended_name
-from pysim.workflow.shell import quoted
 from tests.toy import CATALOGUE, library, measured
 
 NAME = "MassWithRubbing"
@@ -54,9 +62,9 @@ def given(variants: type[Variants] = Unbuilt) -> SessionParts:
     return replace(parts, variants=variants("Toy.Mass", (library(),)))
 
 
-def head(found: Diagnosis, given: SessionParts, folder: Path, place: Path | None = None) -> str:
+def head(found: Diagnosis, given: SessionParts, folder: Path) -> str:
     """What stands ahead of the class."""
-    return write_extended(found, given, folder, place=place)["modelica"].read_text()
+    return write_extended(found, given, folder)["modelica"].read_text()
 
 
 @pytest.fixture(scope="module")
@@ -86,27 +94,50 @@ def test_the_class_and_its_fmu_hold_the_fitted_values(found: Diagnosis, written:
     assert parameters_of(written["parameters"]) == fitted
 
 
-@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX takes the line apart")
-def test_the_command_in_the_header_works_wherever_it_is_pasted(
-    found: Diagnosis, written: dict[str, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    (line,) = (line for line in written["modelica"].read_text().splitlines() if "Compiles by:" in line)
-    program, *words = shlex.split(line.partition("Compiles by: ")[2])
+def command(file: Path) -> list[str]:
+    (line,) = (line for line in file.read_text().splitlines() if "Compiles where" in line)
+    return shlex.split(line.partition(" by: ")[2])
+
+
+def compiled_elsewhere(files: Mapping[str, Path], libraries: Sequence[Path], folder: Path) -> Model:
+    """What becomes of the files and the user's libraries in another folder, by the command of the header."""
+    for one in (*files.values(), *libraries):
+        shutil.copy(one, folder)
+    program, *words = command(files["modelica"])
     assert program == "fmu-build"
-    monkeypatch.chdir(tmp_path)
-    assert fmu_build_main(words) == 0
-    model = read_model(Path(f"{NAME}.fmu"))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(folder)
+        assert fmu_build_main(words) == 0
+    return read_model(folder / f"{words[0]}.fmu")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX takes the line apart")
+def test_the_command_in_the_header_works_where_the_files_lie(
+    found: Diagnosis, written: dict[str, Path], tmp_path: Path
+) -> None:
+    model = compiled_elsewhere({**written, "fmu": written["modelica"]}, [library()], tmp_path)
     fitted = {e.name: e.value for e in found.estimates}
     assert {n: model[n].start for n in fitted} == pytest.approx(fitted, rel=1e-12)
+    assert str(written["modelica"].parents[1]) not in written["modelica"].read_text()
 
 
-def test_the_command_in_the_header_names_where_the_class_will_lie_and_where_fmu_build_is_at_hand(
-    found: Diagnosis, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    root = Path(pysim.__file__).parents[1]
-    monkeypatch.setattr(sys, "prefix", str(root / ".venv"))
-    words = ["fmu-build", NAME, "--library", str(tmp_path.resolve() / "later" / f"{NAME}.mo")]
-    assert quoted([str(root / "run.py"), *words]) in head(found, given(), tmp_path, tmp_path / "later")
+@pytest.mark.skipif(sys.platform == "win32", reason="a shell of POSIX takes the line apart")
+def test_a_law_that_was_typed_comes_along_with_the_class(tmp_path: Path) -> None:
+    place = LawPlace.of("Toy.Mass", "force", [library()])
+    law = tmp_path / "laws" / "MyDrag.mo"
+    law.parent.mkdir()
+    law.write_text(effect_class("my.drag", place.slot, "-F_c*tanh(v/0.02)", {"F_c": (0, 5, 0.3, "N")}, [library()]))
+    libraries = [library(), law]
+    data = measured(1, "toy.friction", F_c=0.4)
+    model = model_of("Toy.Mass", libraries)
+    parts = session_parts(model, data, libraries=libraries, bounds={}, values={}, reference_hz=None)
+    results = tmp_path / "results"
+    results.mkdir()
+    files = write_extended(add(session_of(parts), effects_of(["my.drag"], parts)), parts, results)
+    assert files["MyDrag"].read_text() == law.read_text()
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    assert compiled_elsewhere(files, [library()], elsewhere)["force.F_c"].start == pytest.approx(0.4, rel=0.05)
 
 
 def test_the_header_tells_when_not_to_trust_it(found: Diagnosis, tmp_path: Path) -> None:
