@@ -27,17 +27,18 @@ def found_effects(found: Found, estimates: Sequence[Estimate], session: Session)
     """What is kept, the one that costs most to leave out first; sensor errors as effects at their signal."""
     candidate = found.final.candidate
     by_name = {one.name: one for one in estimates}
-    avoidable = max(sum(test.gain for test in found.losses.values()), 1e-9)
+    avoidable = sum(test.gain for test in found.losses.values())
+    shares = {k: _share(v.gain, avoidable) if v.verdict is Verdict.BETTER else 0.0 for k, v in found.losses.items()}
     rows: list[tuple[float, FoundEffect]] = []
     for effect in candidate.effects:
         place, loss = candidate.places[effect.name], found.losses[effect.name]
         own = tuple(by_name[f"{place}.{p.name}"] for p in effect.parameters)
-        rows.append((loss.gain, FoundEffect(effect, place, own, min(loss.gain / avoidable, 1.0))))
+        rows.append((loss.gain, FoundEffect(effect, place, own, shares[effect.name])))
     labels = candidate.labels[len(candidate.effects) :]
     sizes = found.final.point.carried.nuisances.tolist()
     for nuisance, label, size in zip(candidate.nuisances, labels, sizes, strict=True):
         loss = found.losses[label]
-        rows.append((loss.gain, _sensor(nuisance, size, loss, min(loss.gain / avoidable, 1.0), found.final, session)))
+        rows.append((loss.gain, _sensor(nuisance, size, loss, shares[label], found.final, session)))
     return tuple(one for _, one in sorted(rows, key=lambda row: -row[0]))
 
 
@@ -52,9 +53,8 @@ def _sensor(
     inflated = rivals.samples(final) / loss.effective_size
     sd = abs(size) / math.sqrt(max(2 * loss.gain, 1e-9)) * math.sqrt(inflated)
     estimate = Estimate("size", unit, size, 0.0, -far, far, sd, (size - HALF_95 * sd, size + HALF_95 * sd), "")
-    return FoundEffect(
-        Effect(sensor_name(nuisance), nuisance.signal, "", (parameter,)), nuisance.signal, (estimate,), share
-    )
+    effect = Effect(sensor_name(nuisance), nuisance.signal, "", (parameter,))
+    return FoundEffect(effect, nuisance.signal, (estimate,), share)
 
 
 def what_is_left(found: Found, follows: Follows | None, tone: float | None, last: ErrorStep) -> Left:

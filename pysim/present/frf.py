@@ -147,17 +147,12 @@ def _response(one: MeasuredResponse, reference_hz: float | None) -> dict[str, An
 
 def _point(point: SinePoint) -> dict[str, Any]:
     return {
-        "source": point.source,
+        **{key: getattr(point, key) for key in ("source", "periods", "harmonics", "harmonics_noise", "distorted")},
         "frequency_hz": point.frequency,
-        "periods": point.periods,
         "command_offset": point.command.offset,
         "command_amplitude": point.command.amplitude,
-        "harmonics": point.harmonics,
-        "harmonics_noise": point.harmonics_noise,
-        "distorted": point.distorted,
         "residual": point.noise.deviation,
-        "basis": point.noise.basis,
-        "whiteness": point.noise.whiteness,
+        **{key: getattr(point.noise, key) for key in ("basis", "whiteness")},
         "remarks": [words(note) for note in point.notes],
     }
 

@@ -104,17 +104,13 @@ def page(result: Friction, drawings: Sequence[Drawing], redo: str) -> str:
 
 
 def _data(fit: FrictionFit) -> dict[str, Any]:
+    found = {
+        name: {"value": fit.parameters[name], "unit": unit, "interval": fit.intervals[name],
+               "bounded_only": name in fit.bounded, "at_bound": name in fit.at_bound}
+        for name, unit in zip(FRICTION_NAMES, FRICTION_UNITS, strict=True)
+    }  # fmt: skip
     return {
-        "parameters": {
-            name: {
-                "value": fit.parameters[name],
-                "unit": unit,
-                "interval": fit.intervals[name],
-                "bounded_only": name in fit.bounded,
-                "at_bound": name in fit.at_bound,
-            }
-            for name, unit in zip(FRICTION_NAMES, FRICTION_UNITS, strict=True)
-        },
+        "parameters": found,
         "covariance": fit.covariance,
         "objective": "weighted least squares" if fit.weighted else "thesis Eq. 6.1",
         "residual_rms": fit.rms,

@@ -34,8 +34,8 @@ _WORDS = {
         "{parameter} stopped at its bound ({shown}): widen it if values beyond make sense, or fix the parameter."
     ),
     NoteCode.POOR_FIT: (
-        "The fit is poor: the residuals of {signal} are {factor:.3g} standard deviations of the noise. Something is "
-        "missing in the model, so do not trust the intervals; run the diagnosis."
+        "The fit is poor: the residuals of {signal} are {factor:.3g} standard deviations of the noise. The noise is "
+        "larger than assumed, or the model lacks something: press Find what is missing, or run pysim diagnose."
     ),
     NoteCode.CORRELATED: (
         "{first} and {second} are hardly distinguishable (correlation {correlation:.2f}). Fix one of them, or log what "

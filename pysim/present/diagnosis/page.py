@@ -104,15 +104,10 @@ def _laws(diagnosis: Diagnosis) -> list[str]:
 
 def _signals(step: ErrorStep) -> str:
     rows = [
-        [
-            name,
-            use,
-            cell(size_text(residual), "beyond" if residual > BEYOND else ""),
-            "" if math.isnan(percent) else f"{percent:.1f}",
-            shown_value(rms, unit, ".3g"),
-        ]
+        [name, use, cell(size_text(residual), "beyond" if residual > BEYOND else ""),
+         "" if math.isnan(percent) else f"{percent:.1f}", shown_value(rms, unit, ".3g")]
         for name, use, residual, percent, rms, unit in signal_rows(step.records)
-    ]
+    ]  # fmt: skip
     head = ["signal", "logs", "residual over noise", "fit (%)", "rms residual"]
     return table(f"Signals of the model {step_name(step.step)}", head, rows, words=[0]) if rows else ""
 

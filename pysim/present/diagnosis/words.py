@@ -37,22 +37,35 @@ def _on_logs(use: str) -> str:
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
     """The answer, with what it does to the error, and what is left."""
-    names = [_named(one) for one in diagnosis.effects]
-    if diagnosis.verdict == NONE:
-        return (
-            f"Nothing is missing: the refitted model explains the measurements down to their noise. {_left(diagnosis)}"
-        )
     laws = [law_sentence(diagnosis.laws[0])] if diagnosis.laws else []
+    if diagnosis.verdict == NONE:
+        return f"Nothing is missing: the refitted model explains the measurements. {_left(diagnosis)}"
     if diagnosis.verdict == UNKNOWN:
         tried = "No effect that was tried explains it." if diagnosis.rivals else "No effect was tried."
         whole = diagnosis.complete and diagnosis.learned
-        left = "Nothing but noise is left with it." if whole else _left(diagnosis)
-        return " ".join([*(laws or ["Something is missing."]), tried, left])
+        return " ".join([*(laws or ["Something is missing."]), tried, (_rest if whole else _left)(diagnosis)])
+    names = [_named(one) for one in diagnosis.effects]
     count = "an effect" if len(names) == 1 else f"{len(names)} effects"
-    rest = ["More is missing than that.", *laws, _left(diagnosis)]
-    more = ["Nothing but noise is left."] if diagnosis.complete else rest
-    parts = [f"The model lacks {count}: {listed(names)}.", _tie(diagnosis), _fall(diagnosis), *more]
-    return " ".join(part for part in parts if part)
+    more = [_rest(diagnosis)] if diagnosis.complete else ["More is missing than that.", *laws, _left(diagnosis)]
+    lacks = f"The model lacks {count}: {listed(names)}." if diagnosis.rivals else _asked(diagnosis)
+    return " ".join(filter(None, [lacks, _tie(diagnosis), _fall(diagnosis), *more]))
+
+
+def _asked(diagnosis: Diagnosis) -> str:
+    """Effects that nothing was compared with, and which of them the logs do not tell of."""
+    idle = [one.effect.name for one in diagnosis.effects if one.share == 0]
+    verb, who = ("changes", "it") if len(idle) == 1 else ("change", "them")
+    needless = f" {listed(idle)} {verb} nothing that these logs show: take {who} out." if idle else ""
+    return f"Added as asked: {listed([_named(one) for one in diagnosis.effects])}.{needless}"
+
+
+def _rest(diagnosis: Diagnosis) -> str:
+    """What is left where nothing is in it that was looked for: noise, up to what the diagnosis grants held-out logs."""
+    size = diagnosis.left.fit or diagnosis.left.validate or 0.0
+    if size <= 1.05:
+        return "Nothing but noise is left."
+    of_what = f"What is left is {size_text(size)} times the noise and follows none of the model's signals"
+    return f"{of_what}: the noise is larger than assumed, or more is missing."
 
 
 def _left(diagnosis: Diagnosis) -> str:
@@ -61,7 +74,7 @@ def _left(diagnosis: Diagnosis) -> str:
     parts = [f"{value:.2f} {_on_logs(use)}" for use, value in errors(left).items() if value]
     size = f"The residual is {listed(parts)}, in {UNIT}." if parts else "Only frequency responses were compared."
     if diagnosis.complete:
-        return size
+        return f"{size} {_rest(diagnosis)}"
     share = left.share_explained
     follows = [] if share is None else [f"{100 * share:.0f} % of it follows the model's own signals."]
     tone = (
@@ -100,8 +113,7 @@ def ranking_sentence(diagnosis: Diagnosis) -> str:
 
 def added_sentence(diagnosis: Diagnosis) -> str:
     """What the effects that were asked for do to the error."""
-    names = listed([_named(one) for one in diagnosis.effects])
-    return f"Added as asked: {names}. {_fall(diagnosis)} {limits_sentence(diagnosis.history[-1])}"
+    return f"{_asked(diagnosis)} {_fall(diagnosis)} {limits_sentence(diagnosis.history[-1])}"
 
 
 def candidates_shown(diagnosis: Diagnosis) -> list[Rival]:
@@ -137,7 +149,7 @@ def _nowhere(diagnosis: Diagnosis) -> str:
     shut = any(note.code is NoteCode.CLASS_UNKNOWN for note in diagnosis.notes)
     of_model = "the model's inputs and outputs, and without its Modelica class nothing else can be looked at"
     text = f"No law could be learned at {of_model if shut else 'any place of the model'}."
-    return f"{text} The model explains the measurements down to their noise." if diagnosis.complete else text
+    return f"{text} {_rest(diagnosis)}" if diagnosis.complete else text
 
 
 def next_test_sentence(test: NextTest) -> str:
@@ -239,9 +251,11 @@ def _fall(diagnosis: Diagnosis) -> str:
     pairs = {use: (before, ends[use]) for use, before in errors(base).items() if use in ends}
     if not pairs:
         return ""
-    parts = [f"from {size_text(one)} to {size_text(other)} {_on_logs(use)}" for use, (one, other) in pairs.items()]
+    told = [(_on_logs(use), size_text(one), size_text(other)) for use, (one, other) in pairs.items()]
+    parts = [f"from {one} to {other} {where}" if one != other else f"at {one} {where}" for where, one, other in told]
     falls = all(after <= before for before, after in pairs.values())
-    who, verb = "it" if len(diagnosis.effects) == 1 else "them", "falls" if falls else "goes"
+    verb = "stays" if all(one == other for _, one, other in told) else "falls" if falls else "goes"
+    who = "it" if len(diagnosis.effects) == 1 else "them"
     who += f" and the learned law{'s' if len(diagnosis.learned) > 1 else ''}" if diagnosis.learned else ""
     return f"With {who} the residual {verb} {listed(parts)}, in {UNIT}."
 

@@ -97,6 +97,9 @@ def data(result: Fitted) -> dict[str, Any]:
     return json_data({**_data(result.fit), "profiles": profiles})
 
 
+_ESTIMATE = ("value", "unit", "start", "lower", "upper", "std", "interval", "determined")
+
+
 def _keys(of: object, *names: str) -> dict[str, Any]:
     return {name: getattr(of, name) for name in names}
 
@@ -107,13 +110,7 @@ def _data(fit: Fit) -> dict[str, Any]:
         **_keys(fit, "values", "covariance", "correlation"),
         "outcome": fit.outcome.name.lower(),
         "converged": fit.outcome is FitOutcome.CONVERGED,
-        "estimates": {
-            e.name: {
-                **_keys(e, "value", "unit", "start", "lower", "upper", "std", "interval", "determined"),
-                "at_bound": e.at,
-            }
-            for e in fit.estimates
-        },
+        "estimates": {e.name: {**_keys(e, *_ESTIMATE), "at_bound": e.at} for e in fit.estimates},
         "initial_states": {e.name: _keys(e, "value", "unit", "std", "interval", "determined") for e in fit.initial},
         "undetermined": [{**_keys(d, "exponents", "spread"), "words": direction_words(d)} for d in fit.undetermined],
         "combinations": [_keys(c, "name", "exponents", "value", "interval") for c in fit.combinations],

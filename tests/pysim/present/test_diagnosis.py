@@ -62,7 +62,7 @@ def test_each_use_of_logs_has_one_word() -> None:
 
 
 def test_what_is_left_is_said_with_none_with_unknown_and_where_more_is_missing() -> None:
-    assert numbers(verdict_sentence(nothing())) == [4.2, 3.2]
+    assert numbers(verdict_sentence(nothing())) == [4.2, 3.2, 4.2]
     left = Left({}, 4.2, 3.2, 0.6, 9.0)
     assert numbers(verdict_sentence(nothing(complete=False, left=left))) == [4.2, 3.2, 60.0]
     assert numbers(verdict_sentence(found_offset(complete=False, left=left)))[-3:] == [4.2, 3.2, 60.0]
@@ -107,7 +107,31 @@ def test_an_unknown_that_was_learned_is_first_said_in_words() -> None:
         assert [n for n in numbers(said) if n in (3.2, 1.6)][:2] == [3.2, 1.6]  # held-out error before and after
     assert LAW.formula in verdict_sentence(found)
     assert "Nothing but noise is left" not in verdict_sentence(found)
-    assert "Nothing but noise is left" in verdict_sentence(replace(found, complete=True))
+    noise = Left({}, 1.02, 1.03)
+    assert "Nothing but noise is left" in verdict_sentence(replace(found, complete=True, left=noise))
+
+
+def test_only_what_is_as_small_as_the_noise_is_called_noise() -> None:
+    for size, is_noise in ((1.04, True), (1.41, False)):
+        for found in (nothing(left=Left({}, size, None)), found_offset(left=Left({}, size, None))):
+            said = verdict_sentence(found)
+            assert ("Nothing but noise is left" in said) == is_noise
+            assert ("is 1.41 times the noise" in said) != is_noise
+
+
+def test_effects_that_were_asked_for_are_not_said_to_be_missing() -> None:
+    asked = found_offset(rivals=(), ties=())
+    idle = replace(asked, effects=tuple(replace(one, share=0.0) for one in asked.effects))
+    for found, is_idle in ((asked, False), (idle, True)):
+        for said in (str(data(Diagnosed(found))["reason"]), added_sentence(found)):
+            assert "Added as asked: constant force (toy.offset)." in said
+            assert "lacks" not in said
+            assert ("toy.offset changes nothing" in said) == is_idle
+
+
+def test_a_residual_that_an_effect_leaves_as_it_was_stays() -> None:
+    steps = tuple(step(name, fit, None, 0.1) for name, fit in (("refit", 1.001), ("x", 0.999)))
+    assert "With it the residual stays at 1.00 on fitted logs" in verdict_sentence(found_offset(history=steps))
 
 
 def test_a_law_of_constant_size_is_not_said_to_depend_on_anything() -> None:

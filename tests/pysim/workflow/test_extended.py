@@ -140,6 +140,13 @@ def test_a_law_that_was_typed_comes_along_with_the_class(tmp_path: Path) -> None
     assert compiled_elsewhere(files, [library()], elsewhere)["force.F_c"].start == pytest.approx(0.4, rel=0.05)
 
 
+def test_an_effect_that_the_logs_do_not_ask_for_has_no_share_of_the_misfit(found: Diagnosis) -> None:
+    """Beside dry friction, which is there, and a bias that is not."""
+    both = add(session_of(given(Variants)), [CATALOGUE["toy.friction"], CATALOGUE["toy.bias"]])
+    assert {one.effect.name: one.share == 0 for one in both.effects} == {"toy.friction": False, "toy.bias": True}
+    assert [one.share for one in found.effects] == [1.0]
+
+
 def test_the_header_tells_when_not_to_trust_it(found: Diagnosis, tmp_path: Path) -> None:
     """Each weakness of an answer adds a limit."""
     data = measured(1, "toy.friction", F_c=0.4)
