@@ -8,7 +8,7 @@ from itertools import chain, repeat
 from pathlib import Path
 from typing import Any
 
-from pysim.app.description import description_text, read_description
+from pysim.app.description import description_text, put_unit, read_description
 from pysim.io import read_thesis_folder, write_file
 from pysim.io.load import RawTable
 from pysim.io.load.clock import read_clock, rises
@@ -102,6 +102,8 @@ def describe_logs(folder: Path, columns: Sequence[Mapping[str, Any]], kind: str,
         raise BadInput(str(error).replace(f"{folder}{os.sep}", "")) from error
     content = read_description(into / "dataset.toml")
     content["dataset"]["description"] = "dropped as logs"
+    for name, c in signals.items():
+        put_unit(name, content["signals"][name], c["unit"], name_and_unit(c["heading"])[1])
     if kind == SINE:
         content["records"] = _sines(into, content)
     for record in content["records"]:

@@ -7,10 +7,13 @@ from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
+from pysim.identify.logged.command import jumps
 from pysim.io import log_source, read_described, read_toml, toml_key, toml_table, write_file
+from pysim.io.load.headings import name_and_unit
 from pysim.io.prepare import HoldOut, prepared
-from pysim.types import BadInput, Dataset
-from pysim.types.record_kind import RESPONSE_TABLE
+from pysim.io.prepare.step import stands
+from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record, conversion
+from pysim.types.record_kind import KINDS, RESPONSE_TABLE, Command
 
 
 def read_description(path: Path) -> dict[str, Any]:
@@ -59,13 +62,14 @@ def change_description(path: Path, content: Mapping[str, Any], *, read: bool = T
         raise
 
 
-def hold_out(content: dict[str, Any], read: Sequence[str], number: int, on: bool) -> None:
-    """Hold a record out, or fit it again.
+def put_use(content: dict[str, Any], read: Sequence[str], number: int, use: str) -> None:
+    """Use a record otherwise: fit it, choose with it, or hold it out.
 
     Args:
         content: of a dataset.toml; changed.
         read: sources of the records that could be read, in order.
         number: which of these. Where other records of its file were refused, all of that file are meant.
+        use: one of `pysim.types.dataset.USES`.
     Raises:
         BadInput: a step of the preparation says what the record is for.
     """
@@ -79,7 +83,66 @@ def hold_out(content: dict[str, Any], read: Sequence[str], number: int, on: bool
     if len(own) == read.count(read[number]):
         own = [own[read[:number].count(read[number])]]
     for record in own:
-        record["use"] = "validate" if on else "fit"
+        record["use"] = use
+
+
+READ = {"as the log looks": None, "held": "zero", "straight lines": "linear", "smooth": "spline"}  # words, and `hold`
+
+
+ROLES = ("input", "output", "left out")
+
+
+def put_role(content: dict[str, Any], name: str, role: str) -> None:
+    """Another role of a signal, one of ROLES; an output does not say how it runs between samples.
+
+    Args:
+        content: of a dataset.toml; changed.
+    """
+    content["signals"][name]["role"] = role
+    if role != "input":
+        content["signals"][name].pop("hold", None)
+    if role == ROLES[-1]:
+        leave_column_out(content, name)
+
+
+def held_logs(dataset: Dataset, signal: MeasuredSignal) -> list[str]:
+    """Logs in which an input counts as held, if only where it jumps, though nobody said so."""
+    if signal.role != "input" or signal.hold is not None:
+        return []
+    with_it = (log for log in dataset.logs() if isinstance(log.data, Record) and signal.name in log.data.names)
+    return [log.source for log in with_it if stands(dataset, log, signal.name) or _jumps(log, signal.name)]
+
+
+def _jumps(log: MeasuredRecord, name: str) -> bool:
+    assert isinstance(log.data, Record)
+    return KINDS[log.kind].command is Command.SPLINE and bool(jumps(log.data[name]))
+
+
+def put_unit(name: str, section: dict[str, Any], unit: str, logged: str) -> None:
+    """Another unit of a signal; one of another quantity in which it was logged stays in words.
+
+    Args:
+        section: of the signal; changed.
+        logged: the unit before, or of the heading.
+    """
+    section["unit"] = unit
+    if logged in UNITS and logged != "1" and not _logged(section) and conversion(logged, unit) is None:
+        section["quantity"] = f"{section.get('quantity', name)} [{logged}]"
+
+
+def _logged(section: Mapping[str, Any]) -> str:
+    """The unit that the words of a signal have; "" for none."""
+    unit = name_and_unit(str(section.get("quantity", "")))[1]
+    return unit if unit in UNITS else ""
+
+
+def uncounted(name: str, section: Mapping[str, Any]) -> str:
+    """What is wrong with a signal that was logged in another quantity; "" where nothing is, or a factor says more."""
+    logged, unit = _logged(section), str(section.get("unit"))
+    if not logged or conversion(logged, unit) is not None or {"factor", "offset"} & section.keys():
+        return ""
+    cure = f"write as its factor how many {unit} are 1 {logged}"
+    return f"{name} was logged in {logged}, and 1 {logged} counts as 1 {unit} now; {cure}."
 
 
 def put_steps(content: dict[str, Any], steps: Sequence[Mapping[str, Any]]) -> None:

@@ -58,7 +58,7 @@ class Loaded:
 
 @dataclass
 class Desk:
-    """One per server.
+    """One per server. While work is running, nothing can be chosen that results depend on: `BadInput` says so.
 
     Args:
         take: gives another project, once this server has it to itself.
@@ -255,11 +255,7 @@ class Desk:
         self.add(name)
 
     def change(self, **settings: Any) -> None:
-        """Choose something else, of what results depend on.
-
-        Raises:
-            BadInput: work is running.
-        """
+        """Choose something else, of what results depend on."""
         self._free_to_change()
         self.project.change(**settings, added=())
         self.changed()
@@ -278,11 +274,7 @@ class Desk:
         self.changed()
 
     def keep(self, found: Mapping[str, float]) -> None:
-        """Begin at what a search has found, from now on.
-
-        Raises:
-            BadInput: work is running.
-        """
+        """Begin at what a search has found, from now on."""
         self.set_values({**self.project.values(), **found})
         self.last = None
 
@@ -312,11 +304,7 @@ class Desk:
         self.changed()
 
     def delete(self, answer: Answer) -> None:
-        """Show a result no more; undo brings it back, for as long as this server runs.
-
-        Raises:
-            BadInput: work is running.
-        """
+        """Show a result no more; undo brings it back, for as long as this server runs."""
         self._free_to_change()
         now = self.project.settings()
         added = () if now.added == answer.added else now.added

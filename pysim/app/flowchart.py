@@ -10,13 +10,9 @@ _SHAPES = {"input": ("([", "])"), "output": ("([", "])"), "port": ("([", "])"), 
 _FEW = 9  # places that fit beside each other; more go from top to bottom, where a page has room
 _LINES = {"to": "-->", "both": "<-->", "joint": "==="}
 CONFIG = {
-    "startOnLoad": False,
-    "securityLevel": "strict",
-    "theme": "base",
-    "fontFamily": "inherit",
-    "htmlLabels": False,
+    "startOnLoad": False, "securityLevel": "strict", "theme": "base", "fontFamily": "inherit", "htmlLabels": False,
     "flowchart": {"htmlLabels": False, "nodeSpacing": 28, "rankSpacing": 42},
-}
+}  # fmt: skip
 
 
 def flowchart(nodes: Sequence[Mapping[str, Any]], links: Sequence[Mapping[str, Any]]) -> str:

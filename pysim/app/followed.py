@@ -62,11 +62,7 @@ class Followed:
         one = found.records[0]
         left = (one.measured.values - one.simulated.values) / np.array(one.noise)
         return {
-            "names": one.measured.names,
-            "units": one.measured.units,
-            "time": one.measured.time[self.at],
-            "measured": one.measured.values[self.at].T,
-            "simulated": one.simulated.values[self.at].T,
-            "left": left[self.at].T,
-            "rms": np.sqrt(np.mean(left**2, axis=0)).tolist(),
-        }
+            "names": one.measured.names, "units": one.measured.units, "time": one.measured.time[self.at],
+            "measured": one.measured.values[self.at].T, "simulated": one.simulated.values[self.at].T,
+            "left": left[self.at].T, "rms": np.sqrt(np.mean(left**2, axis=0)).tolist(),
+        }  # fmt: skip

@@ -17,6 +17,7 @@ from pysim.app.upload import Limits
 from pysim.io import shown_value
 
 _STATIC = Path(__file__).parent / "static"
+_Do = Callable[..., Any]  # what an event calls; the class says with what
 
 assert nicegui.elements.plotly
 
@@ -36,15 +37,9 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
     follows = True
 
     def __init__(
-        self,
-        figure: Mapping[str, Any],
-        label: str,
-        *,
-        series: Mapping[str, Any] | None = None,
-        on_pick: Callable[[dict[str, Any]], Any] | None = None,
-        on_range: Callable[[tuple[float, float] | None], Any] | None = None,
-        height: int = 360,
-    ) -> None:
+        self, figure: Mapping[str, Any], label: str, *, series: Mapping[str, Any] | None = None,
+        on_pick: _Do | None = None, on_range: _Do | None = None, height: int = 360,
+    ) -> None:  # fmt: skip
         super().__init__()
         self._props["series"] = series
         self.show(figure, label)
@@ -77,13 +72,7 @@ class Sliders(Element, component=str(_STATIC / "sliders.js")):
 
     follows = True
 
-    def __init__(
-        self,
-        rows: Sequence[Mapping[str, Any]],
-        on_move: Callable[[str, float, bool], Any],
-        on_fit: Callable[[str, bool], Any],
-        on_bound: Callable[[str, str, float], Any],
-    ) -> None:
+    def __init__(self, rows: Sequence[Mapping[str, Any]], on_move: _Do, on_fit: _Do, on_bound: _Do) -> None:
         super().__init__()
         self._props["rows"] = list(rows)
         self.on("move", lambda event: on_move(*(event.args[key] for key in ("name", "value", "done"))))
@@ -103,22 +92,15 @@ class Table(Element, component=str(_STATIC / "table.js")):
         columns: title and kind: "words", "number" or "tick".
         rows: cells: a text, a number, or `{"text", "value", "mark"}`; true or false below "tick".
         on_row: receives the row that was picked.
-        on_tick: receives the row, and whether it is ticked.
+        on_tick: receives the row, the title of the column, and whether it is ticked.
     """
 
     follows = True
 
     def __init__(
-        self,
-        label: str,
-        columns: Sequence[tuple[str, str]],
-        rows: Sequence[Sequence[Any]],
-        *,
-        on_row: Callable[[int], Any] | None = None,
-        on_tick: Callable[[int, bool], Any] | None = None,
-        picked: int = -1,
-        height: str = "",
-    ) -> None:
+        self, label: str, columns: Sequence[tuple[str, str]], rows: Sequence[Sequence[Any]], *,
+        on_row: _Do | None = None, on_tick: _Do | None = None, picked: int = -1, height: str = "",
+    ) -> None:  # fmt: skip
         super().__init__()
         self._props["columns"] = [{"title": title, "kind": kind} for title, kind in columns]
         self._props["rows"], self._props["label"] = [list(row) for row in rows], label
@@ -126,7 +108,7 @@ class Table(Element, component=str(_STATIC / "table.js")):
         if on_row is not None:
             self.on("row", lambda event: on_row(int(event.args)))
         if on_tick is not None:
-            self.on("tick", lambda event: on_tick(int(event.args["row"]), bool(event.args["on"])))
+            self.on("tick", lambda event: on_tick(*(event.args[key] for key in ("row", "column", "on"))))
 
 
 def quantity(value: float | None, unit: str) -> dict[str, Any] | str:
@@ -151,14 +133,9 @@ class Drawing(Element, component=str(_STATIC / "drawing.js")):
     """
 
     def __init__(
-        self,
-        label: str,
-        places: Sequence[Mapping[str, Any]],
-        links: Sequence[Mapping[str, Any]],
-        *,
-        on_pick: Callable[[str], Any],
-        picked: str,
-    ) -> None:
+        self, label: str, places: Sequence[Mapping[str, Any]], links: Sequence[Mapping[str, Any]], *,
+        on_pick: _Do, picked: str,
+    ) -> None:  # fmt: skip
         super().__init__()
         self._props["label"], self._props["picked"] = label, picked
         self._props["places"] = [{k: v for k, v in place.items() if k != "rows"} for place in places]

@@ -108,19 +108,11 @@ def _run(desk: Desk, host: str, port: int, *, show: bool) -> None:
     logging.getLogger("nicegui").addFilter(lambda one: not (one.exc_info and isinstance(one.exc_info[1], BadInput)))
     app.on_shutdown(lambda: desk.runner.close())  # of the project that is shown then
     ui.run(
-        root=lambda: shell(desk),
-        host=host,
-        port=port,
-        title="Workbench",
-        favicon=_STATIC / "icon.svg",
-        dark=None,
-        reload=False,
-        show=False,  # NiceGUI waits for IPv4 alone
-        tailwind=False,
-        show_welcome_message=False,
-        reconnect_timeout=60.0,
+        root=lambda: shell(desk), host=host, port=port, title="Workbench", favicon=_STATIC / "icon.svg", dark=None,
+        reload=False, show=False,  # NiceGUI waits for IPv4 alone
+        tailwind=False, show_welcome_message=False, reconnect_timeout=60.0,
         ws_per_message_deflate=host not in _LOOPBACK,  # it costs more than it saves on one machine
-    )
+    )  # fmt: skip
 
 
 def own_names(host: str) -> tuple[str, ...]:

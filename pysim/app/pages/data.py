@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from functools import partial
+from itertools import starmap
 from pathlib import Path
 from typing import Any
 
 from nicegui import background_tasks, ui
 
-from pysim.app.description import change_description, hold_out, leave_column_out, leave_out, read_description
+from pysim.app import description
 from pysim.app.desk import Desk, Loaded
 from pysim.app.live import live
 from pysim.app.pages.bare import describe_form
@@ -20,7 +21,7 @@ from pysim.app.records import measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted
 from pysim.present.data_check import sentence
-from pysim.present.notes import NOT_FITTED
+from pysim.present.notes import NOT_FITTED, USES, listed
 from pysim.types import UNITS, BadInput, Record
 from pysim.workflow import models_in
 
@@ -28,7 +29,7 @@ _NO_SLOTS = (
     "The class has no slots, so the page can fit it and show where it fails, but not add what is missing. A slot is a "
     "part that is replaceable and whose filling gives 0; docs/tutorials/own_model.md shows one."
 )
-_OUT = "left out"  # in place of a role
+_TICKS = ("validate", "test")  # uses of a log that can be ticked
 _NUMBERS = ("factor", "offset", "noise", "resolution")  # of a signal
 MODELS = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.Pump.LockedGreyBox")
 
@@ -148,7 +149,9 @@ def _refused(desk: Desk, loaded: Loaded) -> None:
         )
         with box("row"):
             files = {file for file, _ in loaded.refused}
-            button("Leave them out", lambda: change(desk, lambda c: leave_out(c, files), safe=True), "small")
+            button(
+                "Leave them out", lambda: change(desk, lambda c: description.leave_out(c, files), safe=True), "small"
+            )
             text("span", "or mend them and drop the folder again", "small")
 
 
@@ -163,9 +166,9 @@ def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = Fa
     try:
         if desk.runner.running is not None:
             raise BadInput("wait until the running work has ended, or stop it")
-        content = read_description(desk.project.description)
+        content = description.read_description(desk.project.description)
         edit(content)
-        change_description(desk.project.description, content, read=not safe)
+        description.change_description(desk.project.description, content, read=not safe)
         desk.project.change(added=())
         desk.history.look()
     finally:
@@ -183,44 +186,46 @@ def _signals(desk: Desk) -> None:
     check = desk.check
     if check is None:
         return
-    content = read_description(desk.project.description)
+    content = description.read_description(desk.project.description)
     variables = [] if desk.model is None else [str(v[0]) for v in desk.model["variables"]]
     with card("Signals"):
-        text(
-            "p",
-            "Signal = factor × column + offset, in this unit: a factor of −1 turns a sign, volts become bar. "
-            "Noise is one standard deviation; left empty, it is estimated from the logs.",
-            "small",
-        )
-        with box("form").style("grid-template-columns: 1.1fr 0.8fr 0.7fr 1.4fr repeat(4, 0.8fr)"):
-            for words in ("signal", "role", "unit", "variable of the model", *_NUMBERS):
+        told = "Signal = factor × column + offset, in this unit: a factor of −1 turns a sign, volts become bar. "
+        text("p", f"{told}Noise is one standard deviation; left empty, it is estimated from the logs.", "small")
+        with box("form").style("grid-template-columns: 1.1fr 0.8fr 0.7fr 1.4fr 1fr repeat(4, 0.7fr)"):
+            for words in ("signal", "role", "unit", "variable of the model", "between samples", *_NUMBERS):
                 text("span", words, "head")
             for name, section in content["signals"].items():
                 _signal(desk, name, section, variables)
-    for words in unfit(desk):
+    for words in [*unfit(desk), *filter(None, starmap(description.uncounted, content["signals"].items()))]:
         note(words, "bad")
+    for signal in check.dataset.signals:
+        if logs := description.held_logs(check.dataset, signal):
+            where = listed(logs if len(logs) < 5 else [*logs[:4], f"{len(logs) - 4} more"])
+            told = f"{signal.name} is taken as held between its samples where it jumps, in {where}."
+            note(f"{told} If it ran on there, choose straight lines: the difference may be far more than the noise.")
 
 
 def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[str]) -> None:
     def put(key: str, value: Any) -> None:
         change(desk, lambda content: content["signals"][name].update({key: value}))
 
-    def put_role(role: str) -> None:
-        if role == _OUT:
-            change(desk, lambda content: leave_column_out(content, name))
-        else:
-            put("role", role)
-
     text("b", name)
-    role = str(section.get("role", ""))
-    Choice(f"role of {name}", list(dict.fromkeys((role, "input", "output", _OUT))), role, put_role)
-    Choice(f"unit of {name}", UNITS, str(section.get("unit", "")), lambda value: put("unit", value))
+    role, unit = str(section.get("role", "")), str(section.get("unit", ""))
+    roles = list(dict.fromkeys((role, *description.ROLES)))
+    Choice(f"role of {name}", roles, role, lambda one: change(desk, lambda c: description.put_role(c, name, one)))
+    units = lambda one: change(desk, lambda c: description.put_unit(name, c["signals"][name], one, unit))  # noqa: E731
+    Choice(f"unit of {name}", UNITS, unit, units)
     variable = str(section.get("variable", name))
     if variables:
         options = list(dict.fromkeys([variable, *variables]))
         Choice(f"variable for {name}", options, variable, lambda value: put("variable", value))
     else:
         text("span", variable)
+    if role == "input":
+        now = next(words for words, hold in description.READ.items() if hold == section.get("hold"))
+        Choice(f"{name} between samples", [*description.READ], now, lambda words: put("hold", description.READ[words]))
+    else:
+        text("span", "")
     for key in _NUMBERS:
         amount(section.get(key), partial(put, key), f"{key} of {name}", signed=key in ("factor", "offset"))
 
@@ -229,16 +234,22 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     check = desk.check
     if check is None or not check.records:
         return
-    columns = [("record", "words"), (NOT_FITTED, "tick"), ("kind", "words"), ("rows", "number"), ("s", "number")]
-    columns += [(words, "number") for words in ("samples/s", "offset", "amplitude", "Hz")] + [("look at", "words")]
+    columns = [("record", "words"), *((USES[use], "tick") for use in _TICKS), ("kind", "words")]
+    columns += [(words, "number") for words in ("rows", "s", "samples/s", "offset", "amplitude", "Hz")]
+    columns += [("look at", "words")]
+
+    def used(row: int, words: str, on: bool) -> None:
+        use = next(use for use in _TICKS if USES[use] == words) if on else "fit"
+        change(desk, lambda content: description.put_use(content, read, row, use), safe=True)
+
     held = sum(record.use != "fit" for record in check.records)
     read = [record.source for record in check.records]
     with card(f"{counted(len(check.records), 'record')}, {held} {NOT_FITTED}"):
-        text("p", f"What is {NOT_FITTED} shows how well the model predicts. Click a row to see it.", "small")
+        told = "A log used to choose is not fitted; it helps to tell which model is better. A held-out log only shows "
+        text("p", f"{told}how well the answer predicts. All others are fitted. Click a row to see it.", "small")
         Table(
-            "Records", columns, [_row(record) for record in check.records], height="360px",
+            "Records", columns, [_row(record) for record in check.records], height="360px", on_tick=used,
             on_row=lambda k: preview.update(record=k), picked=preview.get("record", -1),
-            on_tick=lambda k, on: change(desk, lambda c: hold_out(c, read, k, on), safe=True),
         )  # fmt: skip
     number = _log_number(check, preview.get("record", -1))
     if number is not None:
@@ -277,14 +288,7 @@ def _log_number(check: DataCheck, row: int) -> int | None:
 def _row(record: RecordCheck) -> list[Any]:
     base = record.clock
     clock = ["", ""] if base is None else [f"{base.duration:.4g}", f"{base.rate:.4g}"]
-    return [
-        record.source,
-        record.use != "fit",
-        record.kind,
-        record.rows,
-        *clock,
-        quantity(record.offset, record.unit),
-        quantity(record.amplitude, record.unit),
-        "" if record.frequency is None else f"{record.frequency:g}",
-        "; ".join(sentence(found) for found in record.findings),
-    ]
+    frequency = "" if record.frequency is None else f"{record.frequency:g}"
+    about = (quantity(value, record.unit) for value in (record.offset, record.amplitude))
+    ticks, told = (record.use == use for use in _TICKS), "; ".join(map(sentence, record.findings))
+    return [record.source, *ticks, record.kind, record.rows, *clock, *about, frequency, told]

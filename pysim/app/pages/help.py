@@ -12,7 +12,7 @@ _ABOUT = {
     "/": (
         "Drop a folder with a dataset.toml, a .zip, or single logs. Logs without a dataset.toml are described here.",
         "Name a Modelica class, or drop an .fmu or a library.",
-        "Logs that are not fitted show how well the model predicts.",
+        "Logs used to choose help to tell which model is better. Held-out logs show how well the answer predicts.",
     ),
     "/prepare": (
         "Drag over a stretch of a log to zoom in. Then keep it, or cut it out. The grey line is what was logged.",

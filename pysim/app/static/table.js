@@ -15,7 +15,7 @@ export default {
               @keydown.down.prevent="step($event, 1)" @keydown.up.prevent="step($event, -1)">
             <td v-for="(c, j) in columns" :key="j" :class="[c.kind, mark(rows[i][j])]">
               <input v-if="c.kind === 'tick'" type="checkbox" :checked="rows[i][j]" :aria-label="c.title + ', ' + rows[i][0]"
-                     @click.stop @change="$emit('tick', { row: i, on: $event.target.checked })" />
+                     @click.stop @change="$emit('tick', { row: i, column: c.title, on: $event.target.checked })" />
               <template v-else>{{ text(rows[i][j]) }}</template>
             </td>
           </tr>

@@ -52,7 +52,7 @@ _JUMP = 3.0
 
 
 def _from_jump_to_jump(time: Array, values: Array) -> Signal:
-    edges = [0, *_jumps(values), values.size]
+    edges = [0, *jumps(values), values.size]
     parts = []
     for first, end in pairwise(edges):
         if end - first < 2:
@@ -68,8 +68,8 @@ def _from_jump_to_jump(time: Array, values: Array) -> Signal:
     return Signal(starts[keep], cubics[keep], sines[keep])
 
 
-def _jumps(values: Array) -> list[int]:
-    """Samples (of n_t) that a jump shows in first."""
+def jumps(values: Array) -> list[int]:
+    """Samples (of n_t) that a jump of a command shows in first."""
     change = np.abs(np.diff(values))
     if change.size < 3:
         return []

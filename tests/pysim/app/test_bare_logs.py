@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from pysim.app.bare_logs import describe_logs, guesses, matched
+from pysim.app.description import read_description, uncounted
 from pysim.io import read_dataset
 from pysim.io.load import READERS
 from pysim.types import BadInput, Dataset, Record
@@ -116,3 +117,14 @@ def test_times_are_in_the_unit_that_was_chosen(tmp_path: Path) -> None:
         taken(folder, [column("column 1", "time", "time", "bar"), *own])
     log = taken(folder, [column("column 1", "time", "time", "ms"), *own]).records[0].data
     assert log.time[-1] == pytest.approx(TIME[-1])  # type: ignore[union-attr]
+
+
+def test_a_heading_in_volts_is_remembered_where_another_quantity_is_chosen(tmp_path: Path) -> None:
+    folder = tmp_path / "logs"
+    folder.mkdir()
+    (folder / "a.csv").write_text("\n".join(["t [s],F [N],p [V]", *(f"{k / 10},{k % 3},{k % 5}" for k in range(20))]))
+    columns = [column("t [s]", "t", "time", "s"), column("F [N]", "F", "input", "kN")]
+    describe_logs(folder, [*columns, column("p [V]", "p", "output", "bar")], "other", tmp_path / "described")
+    own = read_description(tmp_path / "described/dataset.toml")["signals"]
+    assert (own["p"]["quantity"], own["F"]["quantity"]) == ("p [V]", "F")
+    assert "1 V counts as 1 bar" in uncounted("p", own["p"])

@@ -1,13 +1,26 @@
 """dataset.toml edited: what is written reads back, and what is refused leaves it as it was."""
 
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
-from pysim.app.description import change_description, hold_out, leave_out, read_description, refuse_outside
+from pysim.app.description import (
+    change_description,
+    held_logs,
+    leave_out,
+    put_role,
+    put_unit,
+    put_use,
+    read_description,
+    refuse_outside,
+    uncounted,
+)
 from pysim.io import read_dataset, write_dataset
-from pysim.types import BadInput
+from pysim.types import BadInput, Record
+from pysim.types.record_kind import Command
 from tests.toy import measured
 
 
@@ -66,18 +79,18 @@ def content() -> dict[str, Any]:
 
 
 @pytest.mark.parametrize("number", [0, 1, 2])
-def test_a_record_is_held_out_alone_however_its_file_is_written(number: int) -> None:
+def test_a_record_is_used_otherwise_alone_however_its_file_is_written(number: int) -> None:
     found = content()
-    hold_out(found, READ, number, True)
+    put_use(found, READ, number, "validate")
     assert [record.get("use") for record in found["records"]] == ["validate" if k == number else None for k in range(3)]
-    hold_out(found, READ, number, False)
+    put_use(found, READ, number, "fit")
     assert found["records"][number]["use"] == "fit"
 
 
 def test_a_log_of_which_a_record_was_refused_is_held_out_as_a_whole() -> None:
     found = content()
-    hold_out(found, READ[1:], 0, True)
-    assert [record.get("use") for record in found["records"]] == ["validate", "validate", None]
+    put_use(found, READ[1:], 0, "test")
+    assert [record.get("use") for record in found["records"]] == ["test", "test", None]
 
 
 def test_refused_logs_are_left_out_however_their_files_are_written() -> None:
@@ -94,8 +107,8 @@ def test_sources_are_those_of_the_reader(path: Path) -> None:
         record["file"] = f"./{record['file']}"
     change_description(path, found)
     read = [record.source for record in read_dataset(path.parent).records]
-    hold_out(found, read, 0, True)
-    assert found["records"][0]["use"] == "validate"
+    put_use(found, read, 0, "test")
+    assert found["records"][0]["use"] == "test"
 
 
 def test_steps_of_the_preparation_stay_and_say_what_their_parts_are_for(path: Path) -> None:
@@ -106,4 +119,47 @@ def test_steps_of_the_preparation_stay_and_say_what_their_parts_are_for(path: Pa
     assert read_description(path) == found
     assert [record.use for record in dataset.records][:2] == ["fit", "test"]
     with pytest.raises(BadInput, match="a step of its preparation says what it is for"):
-        hold_out(found, [record.source for record in dataset.records], 1, True)
+        put_use(found, [record.source for record in dataset.records], 1, "test")
+
+
+def test_an_input_says_how_it_runs_between_samples_until_it_is_none(path: Path) -> None:
+    content = read_description(path)
+    content["signals"]["F"]["hold"] = "zero"
+    found = change_description(path, content)
+    assert found is not None
+    assert found.signal("F").hold is Command.STEPS
+    put_role(content, "F", "output")
+    assert "hold" not in content["signals"]["F"]
+    put_role(content, "F", "left out")
+    assert list(content["signals"]) == ["x"]
+
+
+def test_inputs_that_jump_are_said_to_be_held_until_somebody_says_how_they_run() -> None:
+    data = measured(1)
+    first, second = data.records
+    assert isinstance(first.data, Record)
+    steps = np.where(first.data.time < 5.0, 0.0, 3.0)
+    jumping = replace(first.data, values=np.column_stack([steps, first.data["x"]]))
+    data = replace(data, records=(replace(first, data=jumping), second))
+    signal = data.signal("F")
+    assert held_logs(data, signal) == ["a.txt"]
+    assert held_logs(data, replace(signal, hold=Command.LINES)) == []
+    assert held_logs(data, data.signal("x")) == []
+    assert held_logs(replace(data, records=(first, replace(second, kind="step"))), signal) == ["b.txt"]
+
+
+def test_a_signal_in_volts_does_not_count_as_bar_without_a_factor(path: Path) -> None:
+    content = read_description(path)
+    own = content["signals"]["x"]
+    own["unit"] = "V"
+    assert uncounted("x", own) == ""
+    put_unit("x", own, "bar", "V")
+    assert "how many bar are 1 V" in uncounted("x", own)
+    put_unit("x", own, "mbar", "bar")
+    assert "how many mbar are 1 V" in uncounted("x", own)
+    change_description(path, content)
+    assert uncounted("x", read_description(path)["signals"]["x"])  # a reload knows it still
+    assert uncounted("x", {**own, "factor": 40.0}) == uncounted("x", {**own, "unit": "V"}) == ""
+    other = {"role": "output", "unit": "mm"}
+    put_unit("y", other, "m", "mm")
+    assert "quantity" not in other

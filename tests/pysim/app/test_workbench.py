@@ -89,7 +89,7 @@ def test_two_tabs_agree_and_a_reload_finds_the_same(shown: Shown, show: Show, dr
     dropped.rename(tmp_path / "project/data")
     address = show(tmp_path / "project")
     tab, other = Tab(shown, address), Tab(shown, address)
-    other.page.get_by_label("not fitted, good.txt").check()
+    other.page.get_by_label("used to choose, good.txt").check()
     tab.see("2 records, 1 not fitted")  # the other tab has followed
     tab.page.reload()
     tab.see("2 records, 1 not fitted")
