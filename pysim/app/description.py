@@ -1,4 +1,7 @@
-"""The data set's dataset.toml, edited on the page: signals, units, noise, which records are not fitted."""
+"""The data set's dataset.toml, edited on the page: signals, units, noise, which records are not fitted.
+
+What edits it changes the `content` of the whole, or the `section` of a signal.
+"""
 
 from __future__ import annotations
 
@@ -66,7 +69,6 @@ def put_use(content: dict[str, Any], read: Sequence[str], number: int, use: str)
     """Use a record otherwise: fit it, choose with it, or hold it out.
 
     Args:
-        content: of a dataset.toml; changed.
         read: sources of the records that could be read, in order.
         number: which of these. Where other records of its file were refused, all of that file are meant.
         use: one of `pysim.types.dataset.USES`.
@@ -93,11 +95,7 @@ ROLES = ("input", "output", "left out")
 
 
 def put_role(content: dict[str, Any], name: str, role: str) -> None:
-    """Another role of a signal, one of ROLES; an output does not say how it runs between samples.
-
-    Args:
-        content: of a dataset.toml; changed.
-    """
+    """Another role of a signal, one of ROLES; an output does not say how it runs between samples."""
     content["signals"][name]["role"] = role
     if role != "input":
         content["signals"][name].pop("hold", None)
@@ -122,7 +120,6 @@ def put_unit(name: str, section: dict[str, Any], unit: str, logged: str) -> None
     """Another unit of a signal; one of another quantity in which it was logged stays in words.
 
     Args:
-        section: of the signal; changed.
         logged: the unit before, or of the heading.
     """
     section["unit"] = unit
@@ -149,7 +146,6 @@ def put_steps(content: dict[str, Any], steps: Sequence[Mapping[str, Any]]) -> No
     """Other steps of preparation.
 
     Args:
-        content: of a dataset.toml; changed.
         steps: as it writes them.
     """
     content["dataset"].pop("preparation", None)
@@ -178,7 +174,6 @@ def begin_logs(content: dict[str, Any], words: str) -> None:
     """Let all logs over time begin so.
 
     Args:
-        content: of a dataset.toml; changed.
         words: one of BEGINS.
     """
     for record in content["records"]:
@@ -189,11 +184,7 @@ def begin_logs(content: dict[str, Any], words: str) -> None:
 
 
 def leave_column_out(content: dict[str, Any], signal: str) -> None:
-    """Read a signal no more.
-
-    Args:
-        content: of a dataset.toml; changed.
-    """
+    """Read a signal no more."""
     del content["signals"][signal]
     for record in content["records"]:
         if "columns" in record:
@@ -203,8 +194,6 @@ def leave_column_out(content: dict[str, Any], signal: str) -> None:
 def leave_out(content: dict[str, Any], sources: Collection[str]) -> None:
     """Leave out all records of some files.
 
-    Args:
-        content: of a dataset.toml; changed.
     Raises:
         BadInput: no other is left.
     """

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import contextlib
 import hashlib
+import json
 import os
 import re
 import shutil
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -215,15 +217,17 @@ class Project:
     def fingerprint(self) -> str:
         """Of all that a result depends on: data, model, what may be refitted, and from which values."""
         settings = self.settings()
-        chosen = (settings.model, settings.libraries, settings.free, settings.bounds, *sorted(self.values().items()))
+        fitted = sorted(settings.free), sorted(settings.bounds)  # in whatever order they were ticked
+        chosen = (settings.model, settings.libraries, *fitted, *sorted(self.values().items()))
         return hashlib.sha256(repr((chosen, self.files())).encode()).hexdigest()
 
     def files(self) -> str:
-        """Of data, model and libraries, by sizes and times."""
+        """Of data, model and libraries, by sizes and times; of the description by what it says."""
         digest = hashlib.sha256()
         for name, path in (*_below(self.data), *_below(self.models), *self._elsewhere(self.settings())):
             stat = path.stat()
-            digest.update(repr((name, stat.st_size, stat.st_mtime_ns)).encode())
+            seen = (stat.st_size, stat.st_mtime_ns) if path != self.description else _said(path, stat.st_mtime_ns)
+            digest.update(repr((name, seen)).encode())
         return digest.hexdigest()
 
     def _elsewhere(self, settings: Settings) -> Iterator[tuple[str, Path]]:
@@ -298,6 +302,20 @@ class Project:
         earlier.mkdir(exist_ok=True)
         found = (re.fullmatch(rf"{kind}-(\d+)", path.name) for path in earlier.iterdir())
         return earlier / f"{kind}-{1 + max((int(one[1]) for one in found if one), default=0)}"
+
+
+@lru_cache(maxsize=8)
+def _said(path: Path, _modified: int) -> str:
+    """What a dataset.toml says that results depend on, in whatever order and words; its text where it is none."""
+    try:
+        content = read_toml(path, path.name).whole.values
+        for signal in content["signals"].values():
+            signal.pop("quantity", None)
+        for record in content["records"]:
+            record["use"] = record.get("use", "fit")
+    except (BadInput, KeyError, AttributeError, TypeError):
+        return repr(path.read_bytes())
+    return json.dumps(content, sort_keys=True, default=str)
 
 
 def _below(root: Path) -> list[tuple[str, Path]]:

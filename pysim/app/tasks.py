@@ -14,6 +14,7 @@ from typing import Any
 
 import numpy as np
 
+from pysim import workflow
 from pysim.app.bare_logs import describe_logs
 from pysim.app.followed import Followed
 from pysim.app.jobs import ANSWER, CURVES, EVENTS, OUTPUT, RECORDS, REPORT, Work, laws_of, read_job
@@ -31,19 +32,6 @@ from pysim.present.model import Inside
 from pysim.present.progress import EventFile
 from pysim.present.report import CHECKPOINT, PAGE, mark, with_places
 from pysim.types import BadInput, Diagnosis, ProgressEvent, SimulationError
-from pysim.workflow import (
-    SessionParts,
-    command_line,
-    data_of,
-    effects_of,
-    inside,
-    model_of,
-    reference_of,
-    session_of,
-    session_parts,
-    whole_answer,
-    write_extended,
-)
 
 _DRAWING = 0.1  # of the time of a search goes into curves at most
 
@@ -58,7 +46,7 @@ class Tasks:
     def __init__(self, folder: Path) -> None:
         self._project = Project(folder)
         self._of = ""  # the fingerprint of what is kept
-        self._parts: SessionParts | None = None
+        self._parts: workflow.SessionParts | None = None
         self._sessions: dict[Settings | None, Session] = {}
         self._found: dict[str, Diagnosed] = {}
         self._followed: tuple[Any, ...] = ()
@@ -67,8 +55,8 @@ class Tasks:
         """What the project's model holds, as `pysim model --json` says it."""
         settings = self._project.settings()
         libraries = [*map(Path, settings.libraries), *self._project.laws.glob("*.mo")]
-        model = model_of(settings.model, libraries)
-        known = inside(model, libraries)
+        model = workflow.model_of(settings.model, libraries)
+        known = workflow.inside(model, libraries)
         return dict(data(Inside(model, known.class_name, known.slots, known.taken, tuple(libraries))))
 
     def checked(self) -> DataCheck:
@@ -101,8 +89,8 @@ class Tasks:
         settings = self._project.settings()
         key = (number, settings.model, settings.libraries, self._project.files())
         if not self._followed or self._followed[0] != key:
-            model = model_of(settings.model, [Path(one) for one in settings.libraries])
-            dataset = in_model_units(data_of(Path("data")), model)
+            model = workflow.model_of(settings.model, [Path(one) for one in settings.libraries])
+            dataset = in_model_units(workflow.data_of(Path("data")), model)
             self._followed = (key, Followed.of(model, dataset, number, values))
         return dict(self._followed[1].curves(values))
 
@@ -148,20 +136,21 @@ class Tasks:
         with said_in(folder / OUTPUT):
             kept = self._of == self._project.fingerprint() and name in self._found
             result = self._found[name] if kept else self._result(job.work, lambda event: None)
-            written = write_report(folder / REPORT, result, redo=command_line(job.work.words))
+            written = write_report(folder / REPORT, result, redo=workflow.command_line(job.work.words))
             more = {path.with_suffix(suffix).name for path in written.values() for suffix in (path.suffix, ".svg")}
             names = [one for one in {*result.files.values(), *more} if (folder / REPORT / one).is_file()]
             mark(folder / REPORT, names)
 
-    def _opened(self, laws: Sequence[str]) -> SessionParts:
+    def _opened(self, laws: Sequence[str]) -> workflow.SessionParts:
         """The project's model and data, opened once while they stay as they are, with the libraries of some laws."""
         now, settings = self._project.fingerprint(), self._project.settings()
         libraries = tuple(Path(one) for one in (*settings.libraries, *laws))
         if self._parts is None or self._of != now or self._parts.libraries != libraries:
-            measured = data_of(Path("data"))
-            self._parts = session_parts(
-                model_of(settings.model, libraries), measured, libraries=libraries, free=settings.free,
-                bounds=settings.ranges, values=self._project.values(), reference_hz=reference_of(measured.responses()),
+            measured = workflow.data_of(Path("data"))
+            reference_hz = workflow.reference_of(measured.responses())
+            self._parts = workflow.session_parts(
+                workflow.model_of(settings.model, libraries), measured, libraries=libraries, free=settings.free,
+                bounds=settings.ranges, values=self._project.values(), reference_hz=reference_hz,
             )  # fmt: skip
             self._found = self._found if self._of == now else {}
             self._of, self._sessions = now, {}
@@ -173,18 +162,18 @@ class Tasks:
         report = self._project.results(work.name) / REPORT
         report.mkdir(exist_ok=True)
         found = self._function(work, parts)(progress=tell, checkpoint=report / CHECKPOINT)
-        found = whole_answer(found, parts, place="data", command=command_line(work.words))
-        beside = {name: path.name for name, path in write_extended(found, parts, report).items()}
+        found = workflow.whole_answer(found, parts, place="data", command=workflow.command_line(work.words))
+        beside = {name: path.name for name, path in workflow.write_extended(found, parts, report).items()}
         self._found[work.name] = answered(work.kind, found, parts.dataset, parts.model_name, beside)
         return self._found[work.name]
 
-    def _function(self, work: Work, parts: SessionParts) -> Callable[..., Diagnosis]:
+    def _function(self, work: Work, parts: workflow.SessionParts) -> Callable[..., Diagnosis]:
         """The function that does a piece of work."""
         settings = Settings(max_effects=0) if work.kind == "rank" else None
         if settings not in self._sessions:
-            self._sessions[settings] = session_of(parts, settings)
+            self._sessions[settings] = workflow.session_of(parts, settings)
         session = self._sessions[settings]
         if work.kind == "add":
-            return partial(add, session, effects_of(work.effects, parts))
+            return partial(add, session, workflow.effects_of(work.effects, parts))
         steps: dict[str, Callable[..., Diagnosis]] = {"compare": compare, "locate": learn, "rank": rank}
         return partial(steps.get(work.kind, diagnose), session)

@@ -147,9 +147,8 @@ def _parameters(answer: Answer) -> None:
         first, last = before.get(name), after.get(name)
         one = last or first
         assert one is not None
-        rows.append(
-            [name, one["unit"], _number(first and first["start"]), *_three(first), *(_three(last) if after else [])]
-        )
+        now = _three(last) if after else []
+        rows.append([name, one["unit"], _number(first and first["start"]), *_three(first), *now])
         if one["lower"] is not None and one["upper"] is not None:
             ends = {key: one[key] for key in ("lower", "upper")}
             drawn.append({"name": name, **ends, "before": _point(first), "after": _point(last)})

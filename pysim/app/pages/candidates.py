@@ -24,16 +24,14 @@ def candidates_page(desk: Desk) -> None:
 
 def _top(desk: Desk) -> None:
     answer = desk.answers.newest("ranking")
-    head(
-        "What may be missing", "Every effect of the catalogue that fits a slot of the model, by what it would explain."
-    )
+    told = "Every effect of the catalogue that fits a slot of the model, by what it would explain."
+    head("What may be missing", told)
     ended(desk)
     with box("row"):
         main = "main" if answer is None else ""
         button("Rank the candidates", lambda: start(desk, lambda: desk.work("rank")), main, off=busy(desk))
-        button(
-            "Find what is missing", lambda: start(desk, lambda: desk.work("diagnose"), then="/add"), "", off=busy(desk)
-        )
+        find = lambda: start(desk, lambda: desk.work("diagnose"), then="/add")  # noqa: E731
+        button("Find what is missing", find, off=busy(desk))
         text("span", "Ranking decides nothing; finding adds what the measurements demand, and says why.", "small")
     if desk.answers.verdict is not None:
         _verdict(desk.answers.verdict)
@@ -81,11 +79,8 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
     name = str(row["effect"])
     known = next((one for one in (desk.model or {}).get("effects", []) if one["name"] == name), None)
     tied = any(name in group for group in groups)
-    with (
-        box(f"candidate {'first' if rank == 1 and 'score' in row else ''} {'tied' if tied else ''}")
-        .props('role="listitem"')
-        .mark(name)
-    ):
+    kind = f"candidate {'first' if rank == 1 and 'score' in row else ''} {'tied' if tied else ''}"
+    with box(kind).props('role="listitem"').mark(name):
         text("span", str(rank) if "score" in row else "·", "rank")
         curve(known and known["sketch"])
         with box("tight"):

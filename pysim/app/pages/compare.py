@@ -211,11 +211,8 @@ def _bode(desk: Desk, view: _View) -> None:
         if last["message"]:
             text("p", str(last["message"]), "note bad")
         Chart(bode_chart(one, models), f"Bode plot of {one['output']} to {one['input']}", height=440)
-        told = ", ".join(
-            f"{d['name']} {d['value']:.2g} of {d['limit']:g} {d['unit']}"
-            for d in last["deviations"]
-            if d["value"] is not None
-        )
+        known = [d for d in last["deviations"] if d["value"] is not None]
+        told = ", ".join(f"{d['name']} {d['value']:.2g} of {d['limit']:g} {d['unit']}" for d in known)
         text("p", f"{told}." if told else "", "small")
 
 

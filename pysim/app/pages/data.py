@@ -66,15 +66,11 @@ def _ready(desk: Desk) -> None:
     with box("card row end"):
         with box("tight"):
             text("b", "Ready to compare")
-            text(
-                "span",
-                "Compare refits the model and shows where it fails. Find also tries every effect that fits.",
-                "small",
-            )
+            told = "Compare refits the model and shows where it fails. Find also tries every effect that fits."
+            text("span", told, "small")
         with box("row"):
-            button(
-                "Compare and refit", lambda: start(desk, lambda: desk.work("compare"), then="/compare"), off=busy(desk)
-            )
+            compare = lambda: start(desk, lambda: desk.work("compare"), then="/compare")  # noqa: E731
+            button("Compare and refit", compare, off=busy(desk))
             find = lambda: start(desk, lambda: desk.work("diagnose"), then="/add")  # noqa: E731
             button("Find what is missing", find, "main", off=busy(desk))
 
@@ -108,9 +104,9 @@ def _model(desk: Desk, named: dict[str, str]) -> None:
             free = [p for p in info["parameters"] if None not in (p["min"], p["max"], p["start"])]
             told = (len(info["states"]), len(free), len(info["slots"]), len(info["effects"]))
             with box("row"):
-                for count, word, more in zip(
-                    told, ("state", "parameter", "slot", "effect"), ("", " with bounds", "", " that fit"), strict=True
-                ):
+                fits = " that fits" if len(info["effects"]) == 1 else " that fit"
+                words = (("state", ""), ("parameter", " with bounds"), ("slot", ""), ("effect", fits))
+                for count, (word, more) in zip(told, words, strict=True):
                     text("span", f"{counted(count, word)}{more}", "chip")
             if info["structure"] is None:
                 note("Its Modelica class is not at hand, so no effect can be added; drop its library above.")
@@ -144,9 +140,8 @@ def _refused(desk: Desk, loaded: Loaded) -> None:
         return
     count = len(loaded.refused)
     with card(f"{count} {'log was' if count == 1 else 'logs were'} refused"):
-        Table(
-            "Refused logs", [("file", "words"), ("why, and what to do", "words")], [list(row) for row in loaded.refused]
-        )
+        columns = [("file", "words"), ("why, and what to do", "words")]
+        Table("Refused logs", columns, [list(row) for row in loaded.refused])
         with box("row"):
             files = {file for file, _ in loaded.refused}
             button(

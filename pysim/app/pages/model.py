@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import Any
 
@@ -118,18 +119,20 @@ class _Follows:
         try:
             if not low < high:
                 raise BadInput(f"{name}: from {low:g} to {high:g} is no range; give a smaller min, or a larger max")
-            self._desk.change(bounds=(*others, f"{name}={low!r}:{high!r}"))
+            own = (self._parameter(name)["min"], self._parameter(name)["max"])
+            self._desk.change(bounds=(*others, *([] if own == (low, high) else [f"{name}={low!r}:{high!r}"])))
         finally:
             self._show()
 
     def _fit(self, name: str, on: bool) -> None:
         """Let a fit change a parameter, or leave it."""
-        now = self._desk.project.settings().free or suggested(self._desk)
-        free = tuple(one for one in now if one != name) + ((name,) if on else ())
+        settings = self._desk.project.settings()
+        all_ = dict.fromkeys((*suggested(self._desk), *replace(settings, free=()).ranges))
+        free = tuple(one for one in settings.free or all_ if one != name) + ((name,) if on else ())
         try:
             if not free:
                 raise BadInput("nothing would be fitted; leave at least one parameter ticked")
-            self._desk.change(free=free)
+            self._desk.change(free=() if {*free} == {*all_} else free)
         finally:
             self._show()
 
@@ -144,7 +147,12 @@ class _Follows:
         self._values = {**self._values, name: value}
         self._ask()
         if done:
-            self._desk.set_values({**self._desk.project.values(), name: value})
+            kept = {key: one for key, one in self._desk.project.values().items() if key != name}
+            self._desk.set_values(kept if value == self._parameter(name)["start"] else {**kept, name: value})
+
+    def _parameter(self, name: str) -> Mapping[str, Any]:
+        """As the model has it."""
+        return next(one for one in (self._desk.model or {})["parameters"] if one["name"] == name)
 
     def _ask(self) -> None:
         self._moves += 1

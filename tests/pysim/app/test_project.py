@@ -5,8 +5,11 @@ from pathlib import Path
 
 import pytest
 
+from pysim.app.description import begin_logs, description_text, put_unit, put_use, read_description
 from pysim.app.project import Project, Settings
+from pysim.io import write_dataset, write_file
 from pysim.types import BadInput
+from tests.toy import NOISE, measured
 
 
 def test_settings_come_back_and_a_broken_file_is_said(tmp_path: Path) -> None:
@@ -39,6 +42,39 @@ def test_the_fingerprint_tells_other_data_and_another_model(tmp_path: Path) -> N
     assert len(set(seen)) == 4
     project.change(added=("x",), look="dark")  # neither changes what is compared
     assert project.fingerprint() == seen[-1]
+
+
+def test_what_is_chosen_and_taken_back_leaves_the_fingerprint(tmp_path: Path) -> None:
+    """The bytes need not be the same, nor the order: an answer is of what was asked."""
+    project = Project.at(tmp_path / "p")
+    project.change(free=("a", "b"), bounds=("a=1.0:2.0", "b=1.0:2.0"))
+    write_dataset(project.data, measured(1))
+    content = read_description(project.description)
+    own, read = content["signals"]["x"], ["a.txt", "b.txt"]
+    seen = [project.fingerprint()]
+    for change in (
+        lambda: begin_logs(content, "at rest"), lambda: begin_logs(content, "near rest"),
+        lambda: put_use(content, read, 0, "test"), lambda: put_use(content, read, 0, "fit"),
+        lambda: put_unit("x", own, "V", "m"), lambda: put_unit("x", own, "m", "V"),
+        lambda: own.update(noise=0.5), lambda: own.update(noise=NOISE),
+    ):  # fmt: skip
+        change()
+        write_file(project.description, description_text(content))
+        seen.append(project.fingerprint())
+    project.change(free=("b", "a"), bounds=("b=1.0:2.0", "a=1.0:2.0"))
+    seen.append(project.fingerprint())
+    assert {*seen[::2], seen[-1]} == {seen[0]}
+    assert len({*seen}) == 1 + len(seen[1:-1:2])
+
+
+def test_a_description_that_cannot_be_read_has_a_fingerprint_too(tmp_path: Path) -> None:
+    project = Project.at(tmp_path / "p")
+    project.data.mkdir()
+    seen = set()
+    for text in ("[dataset", "signals = 3", "records = 3\n[signals]", "\0"):
+        write_file(project.description, text)
+        seen.add(project.fingerprint())
+    assert len(seen) == 4
 
 
 @pytest.mark.parametrize("place", ["Pump.fmu", "../elsewhere/Pump.fmu", "absolute"])
