@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import json
 import os
+import shutil
 from collections.abc import Mapping, Sequence
 from itertools import chain, repeat
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from pysim.app.description import description_text, put_unit, read_description
-from pysim.io import read_thesis_folder, write_file
-from pysim.io.load import RawTable
+from pysim.io import log_source, read_described, read_thesis_folder, write_file
+from pysim.io.load import READERS, RawTable
 from pysim.io.load.clock import read_clock, rises
 from pysim.io.load.headings import name_and_unit
 from pysim.nouns.data import load
@@ -19,6 +21,7 @@ from pysim.types.record_kind import LOGS, STEPPED_SINE
 
 SINE = STEPPED_SINE.name
 ROLES = ("time", "input", "output", "-")
+COLUMNS = "columns.json"  # what was said of the columns of logs, beside the data set that was made of them
 KINDS = tuple(kind.name for kind in reversed(LOGS) if not kind.needs or kind is STEPPED_SINE)
 
 
@@ -80,7 +83,7 @@ def describe_logs(folder: Path, columns: Sequence[Mapping[str, Any]], kind: str,
     Raises:
         BadInput: what has to be chosen otherwise.
     """
-    clocks = [c["heading"] for c in columns if c["role"] == "time"]
+    clocks = [_called(c, columns) for c in columns if c["role"] == "time"]
     own = {role: {c["name"]: c for c in columns if c["role"] == role} for role in ("input", "output")}
     signals = own["input"] | own["output"]
     if len(clocks) != 1 or not all(own.values()):
@@ -90,8 +93,9 @@ def describe_logs(folder: Path, columns: Sequence[Mapping[str, Any]], kind: str,
     if without := [name for name, c in signals.items() if not c["unit"]]:
         raise BadInput(f"{', '.join(without)}: choose a unit, or a dash to leave the column out")
     time = next(c["unit"] for c in columns if c["role"] == "time")
+    _refuse_unlike(folder, [c for c in columns if c["role"] != "-"])
     try:
-        inputs, outputs = ({name: c["heading"] for name, c in one.items()} for one in own.values())
+        inputs, outputs = ({name: _called(c, columns) for name, c in one.items()} for one in own.values())
         load(
             folder, inputs=inputs, outputs=outputs, time=clocks[0],
             units={name: c["unit"] for name, c in signals.items()} | ({clocks[0]: time} if time else {}),
@@ -112,6 +116,62 @@ def describe_logs(folder: Path, columns: Sequence[Mapping[str, Any]], kind: str,
     if kind != SINE and len(content["records"]) > 1:
         content["records"][-1]["use"] = "validate"
     write_file(into / "dataset.toml", description_text(content))
+    write_file(into / COLUMNS, json.dumps({"columns": list(columns), "kind": kind}, indent=1))
+
+
+def _called(column: Mapping[str, Any], columns: Sequence[Mapping[str, Any]]) -> str:
+    """What a column is called in every log: its name without the unit, unless another one has that too."""
+    names = [name_and_unit(one["heading"])[0] for one in columns]
+    name = name_and_unit(column["heading"])[0]
+    return str(column["heading"]) if names.count(name) > 1 else name
+
+
+def _refuse_unlike(folder: Path, columns: Sequence[Mapping[str, Any]]) -> None:
+    """A log that lacks a column of the others, or has it in another unit."""
+    for log in sorted(path for path in folder.rglob("*") if path.suffix.lower() in READERS):
+        (table, *more) = READERS[log.suffix.lower()](log)
+        for heading in () if more else (str(c["heading"]) for c in columns):
+            name, unit = name_and_unit(heading)
+            found = [one for one in table.headings if one == heading or name_and_unit(one)[0] == name]
+            if not found:
+                its = ", ".join(map(repr, table.headings))
+                raise BadInput(f"{log.name} has no column {heading!r}, but {its}; all logs need the same columns")
+            if heading not in found and {name_and_unit(one)[1] for one in found} - {"", unit}:
+                raise BadInput(f"{log.name} has {found[0]!r}, and another log {heading!r}; give all logs one unit")
+
+
+def add_logs(folder: Path, data: Path, into: Path) -> None:
+    """More logs, beside those that are there and described as those are; one takes the place of its namesake.
+
+    Args:
+        data: the data set, or logs that nobody has described yet.
+        into: where all of them go; not there yet.
+    Raises:
+        BadInput: one that is not like those that are there.
+    """
+    shutil.copytree(data, into)
+    if not (into / "dataset.toml").is_file():
+        shutil.copytree(folder, into, dirs_exist_ok=True)
+        return
+    content = read_description(into / "dataset.toml")
+    known = {PurePosixPath(log_source(str(one["file"]))).name: one for one in content["records"]}
+    if (into / COLUMNS).is_file():
+        said, made = json.loads((into / COLUMNS).read_text(encoding="utf-8")), into.with_name(f"{into.name}-made")
+        describe_logs(folder, said["columns"], said["kind"], made)
+        new = [{**one, "use": "fit"} for one in read_description(made / "dataset.toml")["records"]]
+        folder = made
+    else:
+        like = {key: one for key, one in content["records"][0].items() if key in ("columns", "kind", "time")}
+        new = [{**like, "file": path.name} for path in folder.rglob("*") if path.suffix.lower() in READERS]
+    for one in new:
+        before = known.get(PurePosixPath(one["file"]).name)
+        shutil.copy(folder / one["file"], into / (one if before is None else before)["file"])
+        if before is None:
+            content["records"].append(one)
+    write_file(into / "dataset.toml", description_text(content))
+    for file, why in read_described(into, partly=True).refused:
+        if PurePosixPath(file).name in {PurePosixPath(one["file"]).name for one in new}:
+            raise BadInput(f"{why}; or put the data set aside on the page Data, and drop all logs anew")
 
 
 def _sines(folder: Path, content: Mapping[str, Any]) -> list[dict[str, Any]]:

@@ -1,6 +1,6 @@
 """The data set's dataset.toml, edited on the page: signals, units, noise, which records are not fitted.
 
-What edits it changes the `content` of the whole, or the `section` of a signal.
+What edits it changes the `content` of the whole, or the `section` of a signal. What is refused is a `BadInput`.
 """
 
 from __future__ import annotations
@@ -47,8 +47,6 @@ def change_description(path: Path, content: Mapping[str, Any], *, read: bool = T
         read: whether to see if it is; an edit that cannot be wrong needs not.
     Returns:
         what it reads as now; None where it was not read.
-    Raises:
-        BadInput: what is wrong with it.
     """
     before = path.read_bytes() if path.is_file() else None
     write_file(path, description_text(content))
@@ -72,8 +70,6 @@ def put_use(content: dict[str, Any], read: Sequence[str], number: int, use: str)
         read: sources of the records that could be read, in order.
         number: which of these. Where other records of its file were refused, all of that file are meant.
         use: one of `pysim.types.dataset.USES`.
-    Raises:
-        BadInput: a step of the preparation says what the record is for.
     """
     own = [record for record in content["records"] if _source(record) == read[number]]
     steps = [step.get("step") for step in content.get("dataset", {}).get("preparation", [])]
@@ -192,11 +188,7 @@ def leave_column_out(content: dict[str, Any], signal: str) -> None:
 
 
 def leave_out(content: dict[str, Any], sources: Collection[str]) -> None:
-    """Leave out all records of some files.
-
-    Raises:
-        BadInput: no other is left.
-    """
+    """Leave out all records of some files."""
     content["records"] = [record for record in content["records"] if _source(record) not in sources]
     if not content["records"]:
         raise BadInput("no record would be left; mend at least one and drop the folder again")
@@ -207,11 +199,7 @@ def _source(record: Mapping[str, Any]) -> str:
 
 
 def refuse_outside(path: Path) -> None:
-    """Every file that a dataset.toml names lies beside it or below.
-
-    Raises:
-        BadInput: one does not.
-    """
+    """Every file that a dataset.toml names lies beside it or below."""
     root = path.parent.resolve()
     for record in read_description(path).get("records", []):
         name = record.get("file") if isinstance(record, dict) else None

@@ -58,7 +58,7 @@ class Loaded:
 
 @dataclass
 class Desk:
-    """One per server. While work is running, nothing can be chosen that results depend on: `BadInput` says so.
+    """One per server. What cannot be done, as while work is running, is a `BadInput` that says why.
 
     Args:
         take: gives another project, once this server has it to itself.
@@ -106,8 +106,6 @@ class Desk:
 
         Args:
             tasks: of its worker.
-        Raises:
-            BadInput: work is running, or the project cannot be had.
         """
         if self.runner.running is not None or self.taking or self.doing:
             raise BadInput("wait until the running work has ended, or stop it; then open another project")
@@ -137,8 +135,6 @@ class Desk:
 
         Args:
             columns, kind: as `bare_logs.describe_logs` takes them.
-        Raises:
-            BadInput: work is running, or what has to be chosen otherwise.
         """
         self._free_to_change()
         await self._do("Reading the logs", "describe", columns, kind)
@@ -194,11 +190,7 @@ class Desk:
             self.project.change(added=answer.added)
 
     def start(self, work: Work) -> None:
-        """Run something.
-
-        Raises:
-            BadInput: something runs already, or data come in.
-        """
+        """Run something."""
         if self.taking:
             raise BadInput("a drop is being taken over; try again in a moment")
         self.last = None
@@ -210,19 +202,11 @@ class Desk:
         self.changed()
 
     def work(self, command: str) -> Work:
-        """What a button starts.
-
-        Raises:
-            BadInput: no data or model yet.
-        """
+        """What a button starts."""
         return works(self.project)[command]
 
     def add(self, effect: str) -> None:
-        """Try an effect beside those that the model has; one that was tried before is shown at once.
-
-        Raises:
-            BadInput: something runs already, or no data or model yet.
-        """
+        """Try an effect beside those that the model has; one that was tried before is shown at once."""
         added = (*self.project.settings().added, effect)
         if self.answers.with_effects(added) is not None:
             self.project.change(added=added)
@@ -239,11 +223,7 @@ class Desk:
             self.changed()
 
     async def add_law(self, name: str, place: LawPlace, law: str, ranges: Mapping[str, Range]) -> None:
-        """Make a law an effect of the project, and try it beside those that the model has.
-
-        Raises:
-            BadInput: work is running, what a law may not hold, or another law has that name.
-        """
+        """Make a law an effect of the project, and try it beside those that the model has."""
         self._free_to_change()
         content = effect_class(name, place.slot, law, ranges, place.libraries)
         file = self.project.laws / f"{class_name_of(name)}.mo"
@@ -265,8 +245,6 @@ class Desk:
 
         Args:
             settings: to choose otherwise at once.
-        Raises:
-            BadInput: work is running.
         """
         self._free_to_change()
         self.project.set_values(values)
@@ -282,12 +260,8 @@ class Desk:
         """A log before it was prepared; None where that is not known."""
         return None if self.loaded is None or self.loaded.raw is None else raw_of(self.loaded.raw, log)
 
-    def bring_back(self, earlier: Path) -> None:
-        """Take a data set that others took the place of; the one that is there now becomes an earlier one.
-
-        Raises:
-            BadInput: work is running, or another program has a file of it.
-        """
+    def bring_back(self, earlier: Path | None) -> None:
+        """Take a data set that others took the place of, or none; the one that is there now becomes an earlier one."""
         self._free_to_change()
         self.project.replace_data(earlier)
         self.project.change(added=())
@@ -379,11 +353,7 @@ class Desk:
         self.changed()
 
     async def draw_report(self, name: str) -> None:
-        """Let the worker draw the report of a result.
-
-        Raises:
-            BadInput: something else is being done, or it cannot be drawn.
-        """
+        """Let the worker draw the report of a result."""
         if self.runner.running is not None or self.model_busy:
             raise BadInput("wait until the running work has ended; then open the report again")
         try:

@@ -20,7 +20,7 @@ _POINTS = 800  # of a curve that moves
 
 @dataclass(frozen=True)
 class Followed:
-    """What does not change while parameters do.
+    """What does not change while parameters do. What cannot be simulated is a `BadInput`.
 
     Args:
         problem: the model beside the log.
@@ -34,11 +34,7 @@ class Followed:
 
     @classmethod
     def of(cls, model: Model, dataset: Dataset, number: int, values: Mapping[str, float]) -> Followed:
-        """A log, by its number among those of the data set.
-
-        Raises:
-            BadInput: there is no such log, or it cannot be simulated.
-        """
+        """A log, by its number among those of the data set."""
         if not 0 <= number < len(dataset.logs()):
             raise BadInput("there is no such log; choose another one")
         log = replace(dataset.logs()[number], use="fit")
@@ -50,11 +46,7 @@ class Followed:
         return cls(problem, found.states, np.unique(np.linspace(0, count - 1, _POINTS).astype(np.intp)))
 
     def curves(self, values: Mapping[str, float]) -> dict[str, Any]:
-        """Names, units, time, measured, simulated and residual over noise per signal, and its root mean square.
-
-        Raises:
-            BadInput: the model cannot be simulated with these values.
-        """
+        """Names, units, time, measured, simulated and residual over noise per signal, and its root mean square."""
         held = replace(self.problem, space=ParameterSpace.held(values))
         found = compared(held, np.zeros(0), Simulation(), self.states)
         if not found.records:

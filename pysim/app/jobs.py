@@ -93,11 +93,7 @@ class Job:
 
 
 def works(project: Project) -> dict[str, Work]:
-    """What can be run on a project as it is, by its name.
-
-    Raises:
-        BadInput: no model or no data yet.
-    """
+    """What can be run on a project as it is, by its name; `BadInput` where it has no model or no data yet."""
     settings = project.settings()
     if not settings.model:
         raise BadInput("no model yet; name one on the page Data")
@@ -117,11 +113,7 @@ def works(project: Project) -> dict[str, Work]:
 
 
 def adding(project: Project, effects: Sequence[str]) -> Work:
-    """The work that refits the model with some effects.
-
-    Raises:
-        BadInput: as `works`.
-    """
+    """The work that refits the model with some effects."""
     base = works(project)["diagnose"].words[1:]
     own = [*base[: base.index("--json")], *(word for one in laws_of(project, effects) for word in ("--library", one))]
     safe = "+".join("".join(c if c.isalnum() or c in "._-" else "_" for c in name) for name in effects)

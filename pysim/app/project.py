@@ -56,11 +56,7 @@ class Settings:
 
     @property
     def ranges(self) -> dict[str, tuple[float, float]]:
-        """Parameter -> lowest and highest value, of those that a fit may change.
-
-        Raises:
-            BadInput: bounds that somebody broke.
-        """
+        """Parameter -> lowest and highest value, of those that a fit may change."""
         found = {}
         for one in self.bounds:
             name, _, ends = one.rpartition("=")
@@ -75,7 +71,10 @@ class Settings:
 
 @dataclass(frozen=True)
 class Project:
-    """The folder; everything is read from it again when it is asked for, so that two pages never differ."""
+    """The folder; everything is read from it again when it is asked for, so that two pages never differ.
+
+    A file that somebody broke is a `BadInput`.
+    """
 
     folder: Path
 
@@ -141,11 +140,7 @@ class Project:
         return self.folder / "results" / name
 
     def settings(self) -> Settings:
-        """As they are on disk.
-
-        Raises:
-            BadInput: a file that somebody broke.
-        """
+        """As they are on disk."""
         path = self.folder / _SETTINGS
         try:
             found = tomllib.loads(path.read_text(encoding="utf-8"))
@@ -171,11 +166,7 @@ class Project:
         return settings
 
     def values(self) -> dict[str, float]:
-        """Parameters that differ from the model's own, in their units, as `--parameters` takes them.
-
-        Raises:
-            BadInput: a file that somebody broke.
-        """
+        """Parameters that differ from the model's own, in their units, as `--parameters` takes them."""
         path = self.folder / VALUES
         if not path.is_file():
             return {}
@@ -251,8 +242,8 @@ class Project:
             and not any(path.is_relative_to(place) for place in own)
         ]
 
-    def replace_data(self, folder: Path) -> str:
-        """Take a folder's content as the data set; what was there before is kept below `earlier`.
+    def replace_data(self, folder: Path | None) -> str:
+        """Take a folder's content as the data set, or none; what was there before is kept below `earlier`.
 
         Returns:
             where that is, in the project; "" where nothing was there.
@@ -261,7 +252,7 @@ class Project:
         """
         place = self._earlier("data") if self.data.exists() else None
         before = [] if place is None else [(self.data, place)]
-        move_all([*before, (folder, self.data)])
+        move_all([*before, *([] if folder is None else [(folder, self.data)])])
         return self._told(place)
 
     def earlier_data(self) -> list[Path]:

@@ -12,6 +12,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from secrets import token_urlsafe
 
+from pysim.app.bare_logs import add_logs
 from pysim.app.description import refuse_outside
 from pysim.app.project import Project
 from pysim.io import DAMAGED, counted, same_file, unusable_name
@@ -38,7 +39,7 @@ class Limits:
 
 @dataclass
 class Batch:
-    """One drop while it comes in.
+    """One drop while it comes in. What it refuses, as too much or names that do not fit, is a `BadInput`.
 
     Args:
         folder: where its files are kept until it is complete.
@@ -59,8 +60,6 @@ class Batch:
         Args:
             size: bytes that its sender announced.
             digest: SHA-256 of these bytes; None where the sender gave none.
-        Raises:
-            BadInput: too much, a name that `target` refuses, or bytes that are not those that were announced.
         """
         target = self.target(name)
         self.count(size, name)
@@ -122,25 +121,18 @@ class Batch:
         self._taken[place] = (name, archive)
 
     def count(self, size: int, name: str) -> None:
-        """So many bytes more.
-
-        Raises:
-            BadInput: too many.
-        """
+        """So many bytes more."""
         self.size += size
         if self.size > self.limits.size:
             raise BadInput(f"{name} goes beyond the limit; drop at most {self.limits.words}")
 
     def end(self) -> None:
-        """Remove what is left of it."""
-        shutil.rmtree(self.folder / self.name, ignore_errors=True)
+        """Remove what is left of it, and of what was made of it."""
+        for one in self.folder.glob(f"{self.name}*"):
+            shutil.rmtree(one, ignore_errors=True)
 
     def unpack(self) -> None:
-        """Put the content of every .zip in its place.
-
-        Raises:
-            BadInput: a damaged archive, a name that `target` refuses, or too much.
-        """
+        """Put the content of every .zip in its place."""
         for path in sorted((self.folder / self.name).rglob("*")):
             if path.is_file() and path.suffix.lower() == ".zip":
                 try:
@@ -217,8 +209,11 @@ def adopt(batch: Batch, project: Project) -> Adopted:
 
 
 def _logs(root: Path, logs: Sequence[Path], project: Project) -> Adopted:
-    kept = project.replace_data(_single(root))
-    text = f"{counted(len(logs), 'log')} without a dataset.toml; say below what their columns are{_kept(kept)}"
+    folder, count, more = _single(root), counted(len(logs), "log"), project.data.exists()
+    if more:
+        add_logs(folder, project.data, folder := root.with_name(f"{root.name}-all"))
+    kept = project.replace_data(folder)
+    text = f"{count} {'more' if more else 'without a dataset.toml; say below what their columns are'}{_kept(kept)}"
     return Adopted("logs", text)
 
 

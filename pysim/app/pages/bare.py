@@ -48,7 +48,9 @@ def _draft(desk: Desk, logs: list[Path]) -> dict[str, Any]:
     if desk.draft.get("key") != key:
         sines = all("hz" in path.stem.lower() for path in logs)
         columns = guesses(READERS[logs[0].suffix.lower()](logs[0])[0])
-        desk.draft = {"key": key, "kind": SINE if sines else "other", "columns": columns}
+        if [c["heading"] for c in desk.draft.get("columns", ())] != [c["heading"] for c in columns]:
+            desk.draft = {"kind": SINE if sines else "other", "columns": columns}
+        desk.draft["key"] = key  # more logs of the same columns leave what was chosen
     for column in desk.draft["columns"]:
         matched(column, (desk.model or {}).get("variables", []))
     return desk.draft

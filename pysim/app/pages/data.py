@@ -256,19 +256,22 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
 
 def _earlier(desk: Desk) -> None:
     """Data sets that a drop took the place of."""
-    earlier = desk.project.earlier_data()
+    earlier, off = desk.project.earlier_data(), "Wait until the running work has ended" if desk.runner.running else ""
+    if desk.project.data.exists():
+        with box("row"):
+            button("Put this data set aside", partial(_bring_back, desk, None), "small quiet", off=off)
+            text("span", "Then drop other logs. Until then, logs that are dropped are added to these.", "small")
     if not earlier:
         return
     with card("Earlier data sets"), box("tight"):
         for folder in earlier:
             with box("row").mark(folder.name):
-                off = "Wait until the running work has ended" if desk.runner.running else ""
                 button(f"Bring back {folder.name}", partial(_bring_back, desk, folder), "small", off=off)
                 found = [path.name for path in folder.rglob("*") if path.is_file()]
                 text("span", counted(len(found), "file") + ", described" * ("dataset.toml" in found), "small")
 
 
-def _bring_back(desk: Desk, folder: Path) -> None:
+def _bring_back(desk: Desk, folder: Path | None) -> None:
     desk.bring_back(folder)
     background_tasks.create(desk.read_data())
 

@@ -6,11 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pysim.app.bare_logs import describe_logs, guesses, matched
-from pysim.app.description import read_description, uncounted
-from pysim.io import read_dataset
+from pysim.app.bare_logs import add_logs, describe_logs, guesses, matched
+from pysim.app.description import description_text, read_description, uncounted
+from pysim.io import read_dataset, write_dataset
 from pysim.io.load import READERS
 from pysim.types import BadInput, Dataset, Record
+from tests.toy import measured
 
 TIME = np.arange(0, 8, 0.005)
 
@@ -128,3 +129,68 @@ def test_a_heading_in_volts_is_remembered_where_another_quantity_is_chosen(tmp_p
     own = read_description(tmp_path / "described/dataset.toml")["signals"]
     assert (own["p"]["quantity"], own["F"]["quantity"]) == ("p [V]", "F")
     assert "1 V counts as 1 bar" in uncounted("p", own["p"])
+
+
+HEAD, ROWS = "t [s],F [N],x [mm]", [f"{k / 10},{k % 3},{k % 5}" for k in range(20)]
+CHOSEN = [column("t [s]", "t", "time", "s"), column("F [N]", "F", "input", "N"), column("x [mm]", "x", "output", "mm")]
+
+
+def logs_in(folder: Path, **heads: str) -> Path:
+    """A folder of logs with these headings; each has a first row of its own."""
+    folder.mkdir()
+    for name, head in heads.items():
+        (folder / f"{name}.csv").write_text("\n".join([head, f"-1,{sum(map(ord, name + folder.name)) % 97},7", *ROWS]))
+    return folder
+
+
+def test_more_logs_are_described_as_those_before_and_one_takes_the_place_of_its_namesake(tmp_path: Path) -> None:
+    data = tmp_path / "data"
+    describe_logs(logs_in(tmp_path / "first", a=HEAD, b=HEAD), CHOSEN, "other", data)
+    content = read_description(data / "dataset.toml")
+    content["signals"]["x"]["noise"] = 0.5
+    (data / "dataset.toml").write_text(description_text(content))
+    add_logs(logs_in(tmp_path / "more", b=HEAD, c=HEAD), data, tmp_path / "all")
+    found = read_dataset(tmp_path / "all")
+    assert [(one.source, one.use) for one in found.records] == [
+        ("a.csv", "fit"),
+        ("b.csv", "validate"),
+        ("c.csv", "fit"),
+    ]
+    assert found.signal("x").noise == pytest.approx(0.5e-3)
+    first, second = (record.data for record in (read_dataset(data).records[1], found.records[1]))
+    assert isinstance(first, Record)
+    assert isinstance(second, Record)
+    assert first["F"][0] != second["F"][0]  # the file that came
+    assert first["F"][1:].tolist() == second["F"][1:].tolist()
+    with pytest.raises(BadInput, match=r"d.csv has no column 'x \[mm\]', but 't', 'F', 'y'; all logs need the same"):
+        add_logs(logs_in(tmp_path / "other", d="t,F,y"), data, tmp_path / "none")
+
+
+def test_more_logs_that_nobody_has_described_lie_beside_the_others(tmp_path: Path) -> None:
+    add_logs(logs_in(tmp_path / "more", b=HEAD), logs_in(tmp_path / "data", a=HEAD, b=HEAD), tmp_path / "all")
+    assert sorted(path.name for path in (tmp_path / "all").iterdir()) == ["a.csv", "b.csv"]
+    assert (tmp_path / "all/b.csv").read_bytes() == (tmp_path / "more/b.csv").read_bytes()
+
+
+def test_a_data_set_of_the_user_takes_logs_of_its_own_form_and_no_others(tmp_path: Path) -> None:
+    data = write_dataset(tmp_path / "data", measured(1)).parent
+    more = tmp_path / "more"
+    more.mkdir()
+    (more / "c.txt").write_bytes((data / "a.txt").read_bytes())
+    add_logs(more, data, tmp_path / "all")
+    assert [one.source for one in read_dataset(tmp_path / "all").records] == ["a.txt", "b.txt", "c.txt"]
+    (more / "c.txt").write_text("only words")
+    with pytest.raises(BadInput, match="or put the data set aside"):
+        add_logs(more, data, tmp_path / "none")
+
+
+def test_headings_of_logs_may_differ_in_a_unit_that_one_has_and_the_other_lacks(tmp_path: Path) -> None:
+    folder = logs_in(tmp_path / "logs", a=HEAD, b="t,F,x")
+    describe_logs(folder, CHOSEN, "other", tmp_path / "described")
+    first, second = (record.data for record in read_dataset(tmp_path / "described").records)
+    assert isinstance(first, Record)
+    assert isinstance(second, Record)
+    assert first["x"][1:].tolist() == second["x"][1:].tolist()
+    other = logs_in(tmp_path / "other", a=HEAD, b="t,F,x [m]")
+    with pytest.raises(BadInput, match=r"b.csv has 'x \[m\]', and another log 'x \[mm\]'; give all logs one unit"):
+        describe_logs(other, CHOSEN, "other", tmp_path / "none")

@@ -291,3 +291,15 @@ def test_archives_that_share_no_name_and_the_pieces_of_a_file_are_taken(project:
     adopt(batch(project, {**archives, "a.csv": b"0,1\n"}), project)
     found = {path.relative_to(project.data).as_posix(): path.read_bytes() for path in project.data.rglob("*.csv")}
     assert found == {**logs, "a.csv": b"0,1\n"}
+
+
+def test_a_log_that_comes_later_lies_beside_those_that_are_there(project: Project) -> None:
+    adopt(batch(project, {"a.csv": b"0,1\n", "b.csv": b"0,1\n"}), project)
+    adopted = adopt(batch(project, {"b.csv": b"0,2\n"}), project)
+    assert adopted.text == "1 log more; what was there before is in earlier/data-1"
+    assert {path.name: path.read_bytes() for path in project.data.iterdir()} == {"a.csv": b"0,1\n", "b.csv": b"0,2\n"}
+    assert (project.folder / "earlier/data-1/b.csv").read_bytes() == b"0,1\n"
+    assert list(project.uploads.iterdir()) == []
+    project.replace_data(None)
+    assert not project.data.exists()
+    assert adopt(batch(project, {"c.csv": b"0,1\n"}), project).text.startswith("1 log without")
