@@ -39,6 +39,11 @@ class Answer:
         """Effects that its last model has."""
         return tuple(one["effect"] for one in self.data["added"])
 
+    @property
+    def asked(self) -> tuple[str, ...]:
+        """Effects of the model that it asks about."""
+        return self.added if self.job.work.kind == "diagnose" else self.job.work.effects
+
     def stage(self, step: str) -> Mapping[str, Any] | None:
         """The model at a step, beside every record."""
         return next((stage for stage in self.stages.about if stage["step"] == step), None)
@@ -91,20 +96,25 @@ class Answers:
 
     def with_effects(self, added: tuple[str, ...]) -> Answer | None:
         """The result whose model has just these effects; without any, whatever has the refitted model."""
-        exact = next((one for one in self.all if one.added == added and one.stages.about), None)
-        if exact is not None or added:
+        if added:
+            return self.branches.get(added)
+        exact = next((one for one in self.all if not one.added and one.stages.about), None)
+        if exact is not None:
             return exact
         return next((one for one in self.all if one.stage("refit")), None)
 
     @property
     def branches(self) -> dict[tuple[str, ...], Answer]:
         """Effects of a model -> the newest result that ends with it; those of fewer effects first."""
-        own = {one.added: one for one in reversed(self.all) if one.added and one.stages.about}
+        whole = (one for one in reversed(self.all) if one.stages.about and one.job.work.kind != "locate")
+        own = {one.added: one for one in whole if one.added}
         return dict(sorted(own.items(), key=lambda item: (len(item[0]), item[0])))
 
-    def newest(self, key: str) -> Answer | None:
-        """The newest result that has something under a key of its data, such as "ranking"."""
-        return next((one for one in self.all if one.data[key]), None)
+    def newest(self, key: str, asked: tuple[str, ...] = ()) -> Answer | None:
+        """The newest result that has something under a key of its data, such as "ranking"; one of the model with some
+        effects where there is one."""
+        found = [one for one in self.all if one.data[key]]
+        return next((one for one in found if one.asked == asked), next(iter(found), None))
 
     @property
     def verdict(self) -> Answer | None:

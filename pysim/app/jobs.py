@@ -47,7 +47,7 @@ class Work:
     @property
     def kind(self) -> str:
         """compare, locate, rank, diagnose or add."""
-        return "add" if self.effects else self.name
+        return "add" if self.name.startswith("add-") else self.name
 
 
 @dataclass(frozen=True)
@@ -104,9 +104,11 @@ def works(project: Project) -> dict[str, Work]:
     more += [word for name, (low, high) in settings.ranges.items() for word in ("--bounds", f"{name}={low!r}:{high!r}")]
     more += ["--parameters", VALUES] if project.values() else []
     behind = ["data", "--model", settings.model, *more]
+    laws = [word for one in laws_of(project, settings.added) for word in ("--library", one)]
+    there = [*laws, *(word for name in settings.added for word in ("--with", name))]
     return {
         "compare": _work("compare", "Compare and refit", [*behind, "--refit"]),
-        "locate": _work("locate", "Locate what is missing", behind),
+        "locate": replace(_work("locate", "Locate what is missing", [*behind, *there]), effects=settings.added),
         "rank": _work("diagnose", "Rank the candidates", [*behind, "--max-effects", "0"], "rank"),
         "diagnose": _work("diagnose", "Find what is missing", behind),
     }

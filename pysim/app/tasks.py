@@ -117,7 +117,7 @@ class Tasks:
             nonlocal best, pause_until
             one, begun = event.trial, time.monotonic()
             if one is not None and not one.names and one.error < best and begun > pause_until:
-                best = one.error
+                best, self._followed = one.error, ()  # where the log begins depends on the values
                 with contextlib.suppress(BadInput, SimulationError):  # a fit may end where no log can be drawn
                     found = self.curves(number, {**self._project.values(), **one.values})
                     plain = {key: np.asarray(value).tolist() for key, value in found.items()}
@@ -173,7 +173,9 @@ class Tasks:
         if settings not in self._sessions:
             self._sessions[settings] = workflow.session_of(parts, settings)
         session = self._sessions[settings]
-        if work.kind == "add":
-            return partial(add, session, workflow.effects_of(work.effects, parts))
+        if work.effects:
+            known = {one.name for one in parts.inside.catalogue}  # an error of a sensor is none of them
+            step = learn if work.kind == "locate" else add
+            return partial(step, session, workflow.effects_of([one for one in work.effects if one in known], parts))
         steps: dict[str, Callable[..., Diagnosis]] = {"compare": compare, "locate": learn, "rank": rank}
         return partial(steps.get(work.kind, diagnose), session)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
+from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.live import live
 from pysim.app.pages.candidates import effect_row
@@ -25,9 +26,13 @@ def locate_page(desk: Desk) -> None:
     live(lambda: (desk.version, chosen.get("slot")), lambda: _below(desk, chosen, laws), "gap")
 
 
+def _answer(desk: Desk) -> Answer | None:
+    return desk.answers.newest("missing", desk.project.settings().added)
+
+
 def _found(desk: Desk) -> _Found:
     """Slot -> the best law there, the best slot first."""
-    answer = desk.answers.newest("missing")
+    answer = _answer(desk)
     return {} if answer is None else {str(one["slot"]): one for one in answer.data["missing"]}
 
 
@@ -36,13 +41,17 @@ def _slots(desk: Desk) -> dict[str, Mapping[str, Any]]:
 
 
 def _build(desk: Desk, chosen: dict[str, str]) -> None:
-    found = _found(desk)
+    found, answer = _found(desk), _answer(desk)
     chosen["slot"] = chosen.get("slot") or next(iter(found), "")
+    asked = answer is not None and answer.asked == desk.project.settings().added
     with box("row end"):
         text("h1", "Where is something missing?")
-        button("Locate", lambda: start(desk, lambda: desk.work("locate")), "" if found else "main", off=busy(desk))
+        button("Locate", lambda: start(desk, lambda: desk.work("locate")), "" if asked else "main", off=busy(desk))
     text("p", "For each place in the model we estimate the force, flow or signal that would close the gap.", "lead")
     ended(desk)
+    if answer is not None and not asked:
+        had = f"with {' and '.join(answer.asked)}" if answer.asked else "without effects"
+        note(f"This was found of the model {had}. Press Locate to ask about the model that is shown now.")
     if not _slots(desk) or (desk.model or {}).get("structure") is None:
         if not found:
             nothing("Nothing to look into yet", "Name a model with slots on the page Data, then press Locate.")
@@ -116,7 +125,7 @@ def _below(desk: Desk, chosen: dict[str, str], laws: dict[str, Writing]) -> None
     if one is None and name not in slots:
         return
     with card(f"What {name} would need" if one else name):
-        answer = desk.answers.newest("missing")
+        answer = _answer(desk)
         if one and (words := answer.data["reason"] if answer and name == next(iter(found)) else one["formula"]):
             text("p", str(words), "statement")
         about = str(slots[name]["about"]) if name in slots else ""

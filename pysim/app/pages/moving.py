@@ -33,7 +33,7 @@ def _build(desk: Desk) -> None:
         words = f"Best so far: {ranked[0][0]} leaves {ranked[0][1]:.3g} times the noise."
         text("p", words, "statement").props('aria-live="polite"')
         Chart(search_chart(job.trials), "Residual over noise, point by point", height=300)
-        if job.curves:
+        if job.curves and not best["names"]:  # they are the base model's
             overlay = followed_overlay(job.curves)
             Chart(overlay.figure(), "The log with the best values", height=70 + 170 * len(overlay.names))
         with box("two"):

@@ -1,6 +1,7 @@
 """A record on the screen: the samples that were measured and simulated, and what is left over."""
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -43,6 +44,28 @@ def test_answers_are_those_of_the_data_and_model_as_they_are(project: Project) -
     assert [step["fit"] for step in history(answer, answer.added)] == [8.1, 4.2, 1.0]
     project.change(model="Another")
     assert Answers.of(project).all == ()
+
+
+def located(project: Project, *effects: str) -> None:
+    """The same answer as one of where something is missing in the model with some effects."""
+    folder, head = project.results("locate"), json.loads((project.results("diagnose") / "job.json").read_text())
+    shutil.copytree(project.results("diagnose"), folder, dirs_exist_ok=True)
+    data = json.loads((folder / ANSWER).read_text()) | {"missing": [{"slot": "force"}]}
+    (folder / ANSWER).write_text(json.dumps(data))
+    work = {**head["work"], "name": "locate", "effects": effects}
+    (folder / "job.json").write_text(json.dumps({**head, "work": work, "ended": 3.0}))
+
+
+def test_what_is_located_belongs_to_the_model_that_was_asked_about(project: Project) -> None:
+    for effects in ((), ("toy.offset",)):
+        located(project, *effects)
+        found = Answers.of(project)
+        newest = found.newest("missing", ("toy.offset",))
+        assert newest is not None
+        assert (newest.job.work.kind, newest.asked) == ("locate", effects)
+        shown = found.with_effects(("toy.offset",))  # a law may stand at its end, which is no model of the user
+        assert shown is not None
+        assert shown.job.work.kind == "diagnose"
 
 
 @pytest.mark.parametrize("way", ["an older form of the records", "an older form of the answer", "cut short"])

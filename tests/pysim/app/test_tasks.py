@@ -1,6 +1,7 @@
 """What the worker does is what the command line does, in a folder that both can go on with."""
 
 import json
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -10,6 +11,7 @@ from pysim.app.jobs import ANSWER, CURVES, Job, Work, _write_job, works
 from pysim.app.project import Project
 from pysim.app.tasks import Tasks
 from pysim.cli import main
+from pysim.diagnosis import learn
 from tests.pysim.app.made import rubbing
 from tests.toy import TEXT
 
@@ -75,6 +77,20 @@ def test_a_report_is_drawn_when_it_is_asked_for_and_after_a_restart_too(
     Tasks(project.folder).report("compare")
     assert [one.name for one in steps] == ["compare"]
     assert {path.name: path.read_bytes() for path in (folder / "report").glob("*.png")} == first != {}
+
+
+def test_where_something_is_missing_is_asked_of_the_model_with_its_effects(project: Project) -> None:
+    project.laws.mkdir()
+    (project.laws / "MyDrag.mo").write_text("")
+    project.change(added=("toy.friction", "my.drag"))
+    work = works(project)["locate"]
+    assert (work.kind, work.effects) == ("locate", ("toy.friction", "my.drag"))
+    words = " ".join(work.words)
+    assert "--library laws/MyDrag.mo --with toy.friction --with my.drag" in words
+    own = Tasks(project.folder)
+    step = own._function(replace(work, effects=("toy.friction", "offset of x")), own._opened(()))
+    assert step.func is learn  # type: ignore[attr-defined]
+    assert [one.name for one in step.args[1]] == ["toy.friction"]  # type: ignore[attr-defined]
 
 
 def test_models_and_data_are_opened_once_while_they_stay_as_they_are(project: Project) -> None:
