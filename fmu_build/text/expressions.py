@@ -141,6 +141,7 @@ class _Reader:
     def _misplaced(self, wanted: str) -> Misplaced:
         word, place = self._peek(), self._starts[min(self._at, len(self._starts) - 1)]
         power = "; a power is written with ^" if self._at and word == "*" == self._words[self._at - 1] else ""
+        wanted = wanted if word or wanted not in (",", ")") else "a closing bracket"
         return Misplaced(f"{word or 'the end'} stands where {wanted} is expected{power}", place)
 
     def expect(self, word: str) -> None:

@@ -4,19 +4,10 @@ from collections.abc import Sequence
 
 
 def class_text(
-    name: str,
-    *,
-    kind: str = "model",
-    description: str = "",
-    comment: str = "",
-    classes: Sequence[str] = (),
-    extends: Sequence[tuple[str, Sequence[str]]] = (),
-    declarations: Sequence[str] = (),
-    protected: Sequence[str] = (),
-    initial: Sequence[str] = (),
-    equations: Sequence[str] = (),
-    annotation: str = "",
-) -> str:
+    name: str, *, kind: str = "model", description: str = "", comment: str = "", classes: Sequence[str] = (),
+    extends: Sequence[tuple[str, Sequence[str]]] = (), declarations: Sequence[str] = (),
+    protected: Sequence[str] = (), initial: Sequence[str] = (), equations: Sequence[str] = (), annotation: str = "",
+) -> str:  # fmt: skip
     """A class as Modelica text, a line for each part.
 
     Args:

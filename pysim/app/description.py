@@ -15,7 +15,7 @@ from pysim.io import log_source, read_described, read_toml, toml_key, toml_table
 from pysim.io.load.headings import name_and_unit
 from pysim.io.prepare import HoldOut, prepared
 from pysim.io.prepare.step import stands
-from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record, conversion
+from pysim.types import UNITS, BadInput, Dataset, MeasuredSignal, Record, conversion
 from pysim.types.record_kind import KINDS, RESPONSE_TABLE, Command
 
 
@@ -103,13 +103,12 @@ def held_logs(dataset: Dataset, signal: MeasuredSignal) -> list[str]:
     """Logs in which an input counts as held, if only where it jumps, though nobody said so."""
     if signal.role != "input" or signal.hold is not None:
         return []
-    with_it = (log for log in dataset.logs() if isinstance(log.data, Record) and signal.name in log.data.names)
-    return [log.source for log in with_it if stands(dataset, log, signal.name) or _jumps(log, signal.name)]
-
-
-def _jumps(log: MeasuredRecord, name: str) -> bool:
-    assert isinstance(log.data, Record)
-    return KINDS[log.kind].command is Command.SPLINE and bool(jumps(log.data[name]))
+    found, name = [], signal.name
+    for log in dataset.logs():
+        if isinstance(log.data, Record) and name in log.data.names:
+            jumping = KINDS[log.kind].command is Command.SPLINE and jumps(log.data[name])
+            found += [log.source] if jumping or stands(dataset, log, name) else []
+    return found
 
 
 def put_unit(name: str, section: dict[str, Any], unit: str, logged: str) -> None:

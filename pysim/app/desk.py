@@ -13,7 +13,7 @@ from nicegui import run
 
 from pysim.app.answers import Answer, Answers
 from pysim.app.history import History
-from pysim.app.jobs import DONE, FAILED, STOPPED, Job, Runner, Work, adding, read_job, works
+from pysim.app.jobs import DONE, STOPPED, Job, Runner, Work, adding, read_job, works
 from pysim.app.live import news
 from pysim.app.project import Project
 from pysim.app.records import raw_of
@@ -260,13 +260,13 @@ class Desk:
         """A log before it was prepared; None where that is not known."""
         return None if self.loaded is None or self.loaded.raw is None else raw_of(self.loaded.raw, log)
 
-    def bring_back(self, earlier: Path | None) -> None:
+    async def bring_back(self, earlier: Path | None) -> None:
         """Take a data set that others took the place of, or none; the one that is there now becomes an earlier one."""
         self._free_to_change()
         self.project.replace_data(earlier)
         self.project.change(added=())
         self.history.begin_anew()
-        self.changed()
+        await self.read_data()
 
     def _free_to_change(self) -> None:
         if self.runner.running is not None or self.taking or self.doing:
@@ -274,6 +274,7 @@ class Desk:
 
     def choose(self, added: tuple[str, ...]) -> None:
         """Show the model with other effects, of which there is a result."""
+        self.last = None
         self.project.change(added=added)
         self.changed()
 
@@ -313,7 +314,7 @@ class Desk:
         """The newest job that was stopped and could go on, of the data and the model as they are."""
         now = self.project.fingerprint()
         jobs = [read_job(path.parent) for path in (self.project.folder / "results").glob("*/job.json")]
-        open_ = [job for job in jobs if job and job.state in (STOPPED, FAILED) and job.fingerprint == now]
+        open_ = [job for job in jobs if job and job.state == STOPPED and job.fingerprint == now]
         return max(open_, key=lambda job: job.begun, default=None)
 
     async def read_data(self) -> None:

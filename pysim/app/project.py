@@ -235,12 +235,8 @@ class Project:
         """Files of a library, without what is hidden, as .git, and, where the project lies in it, the project's own."""
         project = self.folder.resolve()
         own = [project / name for name in _OWN] if project.is_relative_to(library) else []
-        return [
-            (name, path)
-            for name, path in _below(library)
-            if not any(part.startswith(".") for part in name.split("/"))
-            and not any(path.is_relative_to(place) for place in own)
-        ]
+        seen = ((name, path) for name, path in _below(library) if "/." not in f"/{name}")
+        return [(name, path) for name, path in seen if not any(path.is_relative_to(place) for place in own)]
 
     def replace_data(self, folder: Path | None) -> str:
         """Take a folder's content as the data set, or none; what was there before is kept below `earlier`.
@@ -261,13 +257,7 @@ class Project:
         return sorted(found, key=lambda path: -int(path.name.rpartition("-")[2]))
 
     def replace_models(self, paths: Sequence[Path]) -> str:
-        """Take files and folders, each of another name, into `model`; those of the same names are kept as data are.
-
-        Returns:
-            as `replace_data`.
-        Raises:
-            BadInput: as `replace_data`.
-        """
+        """Take files and folders, each of another name, into `model`, as `replace_data` takes data."""
         self.models.mkdir(exist_ok=True)
         old = [self.models / path.name for path in paths if (self.models / path.name).exists()]
         place = self._earlier("model") if old else None

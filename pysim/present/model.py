@@ -54,13 +54,14 @@ def text(result: Inside) -> str:
 
 def data(result: Inside) -> dict[str, Any]:
     """All of it, with its parts and their links, and a picture of each effect's law."""
-    from pysim.effects import STANDARD_LIBRARY
+    from pysim.effects import STANDARD_LIBRARY, read_pairs
     from pysim.effects.structure import structure
 
     libraries = [STANDARD_LIBRARY, *result.libraries]
     found = _data(result.model, result.class_name, result.slots)
     # parts and what links them; not known of an FMU without its class
     found["structure"] = asdict(structure(result.class_name, libraries)) if result.class_name else None
+    found["pairs"] = [[pair.slot, *pair.of] for pair in read_pairs(*libraries)]  # effects that share a slot
     found["effects"] = [_effect(effect, result.model, result.slots, libraries) for effect in result.effects]
     return found
 

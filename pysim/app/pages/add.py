@@ -82,7 +82,7 @@ def _error(steps: Sequence[Mapping[str, Any]]) -> None:
 def _branches(desk: Desk) -> None:
     """Models that were tried, side by side: any of them can be shown again, or deleted."""
     found, now = desk.answers.branches, desk.project.settings().added
-    if len(found) < 2:
+    if not found.keys() - {now}:
         return
     with card("Branches"):
         text("p", "Each model that was tried, and what it leaves in fitted and in held-out logs.", "small")
@@ -91,7 +91,7 @@ def _branches(desk: Desk) -> None:
         names = {added: named.get("+".join(added), "") for added in found}
         ends = [one.data["error"][-1] | {"step": names[added] or " + ".join(added)} for added, one in found.items()]
         figure = error_chart([read_step(s) for s in [*history(first, ())[-1:], *ends]])
-        Chart(figure, f"Error over noise of {len(found)} branches", height=300)
+        Chart(figure, f"Error over noise of {len(found)} branch{'es' if len(found) > 1 else ''}", height=300)
         with box("tight"):
             for letter, (added, one) in zip(ascii_uppercase, found.items(), strict=False):
                 all_, off = " + ".join(added), busy(desk)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 from nicegui import ui
@@ -111,8 +111,18 @@ def _named(effect: Mapping[str, Any], *, tied: bool = False) -> None:
 def _trying(desk: Desk, name: str) -> None:
     if name in desk.project.settings().added:
         text("span", "in the model", "chip good")
+    elif others := occupied(desk.model or {}, name, desk.project.settings().added):
+        text("span", f"its slot has {' and '.join(others)}; undo to try this one", "small")
     elif any(one["name"] == name for one in (desk.model or {}).get("effects", [])):  # a sensor's error is none of them
         button("Try", lambda: _try(desk, name), "small", off=busy(desk)).mark(name)
+
+
+def occupied(model: Mapping[str, Any], name: str, added: Sequence[str]) -> list[str]:
+    """Effects in the slot of another one that no class puts beside them."""
+    slots = {str(one["name"]): str(one["slot"]) for one in model.get("effects", [])}
+    here = [one for one in added if name in slots and slots.get(one) == slots[name]]
+    classes = [set(of) for slot, *of in model.get("pairs", []) if slot == slots.get(name)]
+    return [] if set() in classes or {*here, name} in classes else here
 
 
 def _gain(row: Mapping[str, Any], top: float) -> None:

@@ -127,9 +127,11 @@ def amount(value: Any, put: Callable[[float | None], Any], label: str, *, signed
 
     def changed(written: str) -> None:
         try:
-            put(float(written) if written else None)
+            value = float(written) if written else None
         except ValueError:
             say(f"{label}: {written!r} is no number; write one, or leave it empty", bad=True)
+        else:
+            put(value)  # what it refuses it says itself
 
     props = f"type=number step=any {'' if signed else 'min=0'}"
     Entry(label, "" if value is None else value, changed, props)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import partial
 from itertools import starmap
-from pathlib import Path
 from typing import Any
 
 from nicegui import background_tasks, ui
@@ -144,9 +143,8 @@ def _refused(desk: Desk, loaded: Loaded) -> None:
         Table("Refused logs", columns, [list(row) for row in loaded.refused])
         with box("row"):
             files = {file for file, _ in loaded.refused}
-            button(
-                "Leave them out", lambda: change(desk, lambda c: description.leave_out(c, files), safe=True), "small"
-            )
+            leave = lambda: change(desk, lambda c: description.leave_out(c, files), safe=True)  # noqa: E731
+            button("Leave them out", leave, "small")
             text("span", "or mend them and drop the folder again", "small")
 
 
@@ -259,21 +257,16 @@ def _earlier(desk: Desk) -> None:
     earlier, off = desk.project.earlier_data(), "Wait until the running work has ended" if desk.runner.running else ""
     if desk.project.data.exists():
         with box("row"):
-            button("Put this data set aside", partial(_bring_back, desk, None), "small quiet", off=off)
+            button("Put this data set aside", partial(desk.bring_back, None), "small quiet", off=off)
             text("span", "Then drop other logs. Until then, logs that are dropped are added to these.", "small")
     if not earlier:
         return
     with card("Earlier data sets"), box("tight"):
         for folder in earlier:
             with box("row").mark(folder.name):
-                button(f"Bring back {folder.name}", partial(_bring_back, desk, folder), "small", off=off)
+                button(f"Bring back {folder.name}", partial(desk.bring_back, folder), "small", off=off)
                 found = [path.name for path in folder.rglob("*") if path.is_file()]
                 text("span", counted(len(found), "file") + ", described" * ("dataset.toml" in found), "small")
-
-
-def _bring_back(desk: Desk, folder: Path | None) -> None:
-    desk.bring_back(folder)
-    background_tasks.create(desk.read_data())
 
 
 def _log_number(check: DataCheck, row: int) -> int | None:

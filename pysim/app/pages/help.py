@@ -42,7 +42,7 @@ _ABOUT = {
 _KEYS = (
     ("Tab, Enter", "reach and press everything"),
     ("Ctrl+Z, Ctrl+Y", "undo and redo what was chosen"),
-    ("?", "show or hide this help"),
+    ("?, Escape", "show this help, and close it"),
     ("arrows, + −, 0", "in a figure over time: move, zoom, show all"),
     ("arrows", "in the drawing: go from place to place"),
 )

@@ -19,6 +19,12 @@ from pysim.app.records import followed_overlay
 from pysim.app.worker import Ended
 from pysim.types import BadInput
 
+_BEGINNING = {
+    "near rest": "Where each log begins is estimated, and expected close to the model at rest.",
+    "at rest": "Each log begins where the model comes to rest at the first value of its inputs.",
+    "anywhere, estimated": "Where each log begins is estimated from the log alone.",
+}
+
 
 def model_page(desk: Desk) -> None:
     """Parameters and curves."""
@@ -56,7 +62,9 @@ class _Follows:
         with card() as self._place, box("row end"):
             self._state = text("span", "", "statement")
             with box("form").style("width: 240px"):
-                Choice("log that is shown", logs, logs[self.number], lambda one: self._look(logs.index(one)))
+                Choice(
+                    "log that is shown", logs, logs[self.number], lambda one: setattr(self, "number", logs.index(one))
+                )
         with card("Parameters"):
             self._sliders = Sliders(self._rows(), self._moved, self._fit, self._bound)
             with box("row"):
@@ -64,7 +72,6 @@ class _Follows:
         with card("Initial states"), box("row"):
             text("span", "The logs begin")
             live(lambda: self._desk.version, self._beginning)  # a choice may be undone at once
-            text("span", "Near rest: estimated, and expected close to the model at rest.", "small")
         self._known, self._values, self._shown = self._ends(), self._all(), -1
         self._ask()
 
@@ -72,6 +79,7 @@ class _Follows:
         now = begins(read_description(self._desk.project.description))
         with box("form").style("width: 220px"):
             Choice("how the logs begin", [*BEGINS] if now else ["", *BEGINS], now, self._begin)
+        text("span", _BEGINNING.get(now, "The logs differ."), "small")
 
     def told(self) -> None:
         """What is in the project now, though another tab, or undo, has written it."""
@@ -85,9 +93,6 @@ class _Follows:
     def _ends(self) -> list[dict[str, Any]]:
         """All that the rows say but for the values."""
         return [{**row, "value": None} for row in self._rows()]
-
-    def _look(self, number: int) -> None:
-        self.number = number
 
     def _all(self) -> dict[str, float]:
         return {row["name"]: row["value"] for row in self._rows()}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from functools import partial
 from typing import Any
 
@@ -11,9 +11,10 @@ from pysim.app.desk import Desk
 from pysim.app.live import live
 from pysim.app.pages.common import nothing, record_chart
 from pysim.app.pages.data import change
-from pysim.app.parts import Choice, Entry, box, button, card, head, text
+from pysim.app.parts import Choice, Entry, box, button, card, head, say, text
 from pysim.app.records import measured_overlay
-from pysim.io.prepare import Step, call, step_of, values_of
+from pysim.io import counted
+from pysim.io.prepare import call, step_of, values_of
 from pysim.io.toml_section import Section
 from pysim.present.data_check.words import cures, sentence
 from pysim.types import BadInput, Dataset
@@ -64,7 +65,7 @@ class _View:
             off = self._desk.model_busy or self._desk.runner.running is not None or self._desk.model is None
             words = "Name a model, and wait until nothing runs" if off else ""
             with box("row"):
-                button("Check signs and units with the model", self._desk.check_with_model, "small", off=words)
+                button("Check signs and units with the model", self._checked, "small", off=words)
             for k, log in enumerate(check.dataset.logs()):
                 found = [one for one in check.findings if one.source == log.source]
                 with box("row").mark(log.source):
@@ -73,7 +74,12 @@ class _View:
                     button(log.source, partial(self._look_at, k), "small" if k != self.log else "small main")
                     text("span", "; ".join(map(sentence, found)), "small")
                     for step in cures(found):
-                        button(call(step), partial(self._add, step), "small")
+                        button(call(step), partial(self._insert, values_of(step)), "small")
+
+    async def _checked(self) -> None:
+        await self._desk.check_with_model()
+        found = self._desk.check.findings if self._desk.check else ()
+        say(f"Checked: {counted(len(found), 'finding')} below" if found else "Checked: signs and units fit the model")
 
     def _look_at(self, number: int) -> None:
         self.log, self._window = number, None
@@ -92,8 +98,8 @@ class _View:
                 text("h2", log.source)
                 with box("row"):
                     self._told = text("span", "", "small mono")
-                    button("Keep this stretch", self._keep, "small")
-                    button("Cut it out", self._cut, "small")
+                    button("Keep this stretch", partial(self._stretch, "trim"), "small")
+                    button("Cut it out", partial(self._stretch, "exclude"), "small")
             text("p", "Drag over a stretch to zoom in, then keep it or cut it out. Double click shows all.", "small")
             label, height = f"{log.source} as it was logged and as it is prepared", 80 + 130 * len(overlay.names)
             record_chart(overlay, "prepared", self.log, label, height, self._zoomed)
@@ -103,17 +109,12 @@ class _View:
         self._window = window
         self._told.set_text("the whole log" if window is None else f"{window[0]:.4g} to {window[1]:.4g} s")
 
-    def _keep(self) -> None:
-        self._stretch("trim", lambda name: {"logs": [name]})
-
-    def _cut(self) -> None:
-        self._stretch("exclude", lambda name: {"log": name})
-
-    def _stretch(self, word: str, of: Callable[[str], dict[str, Any]]) -> None:
+    def _stretch(self, word: str) -> None:
         if self._window is None:
             raise BadInput("no stretch is chosen; drag over a part of the figure first")
         ends = dict(zip(("start", "stop"), (float(f"{end:.6g}") for end in self._window), strict=True))
-        self._insert({"step": word, **of(self._shown.logs()[self.log].source), **ends})
+        name = self._shown.logs()[self.log].source
+        self._insert({"step": word, **({"logs": [name]} if word == "trim" else {"log": name}), **ends})
         self._window = None
 
     def _content(self) -> list[dict[str, Any]]:
@@ -123,9 +124,6 @@ class _View:
 
     def _insert(self, step: Mapping[str, Any]) -> None:
         change(self._desk, lambda content: put_steps(content, [*self._content(), dict(step)]))
-
-    def _add(self, step: Step) -> None:
-        self._insert(values_of(step))
 
     def steps(self) -> None:
         """The chain: switch off, reorder, remove."""

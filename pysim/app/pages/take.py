@@ -15,11 +15,7 @@ from pysim.app.parts import box, button, card, head, say, text
 from pysim.workflow import command_line
 
 _FILES = (
-    (
-        "modelica",
-        "Modelica class",
-        "Yours extended, with the fitted values. Your own files stay; it needs all that is here.",
-    ),
+    ("modelica", "Modelica class", "Yours extended, with the fitted values, and what it needs. Your files stay."),
     ("fmu", "FMU", "The same class compiled; its defaults are the fitted values."),
     ("parameters", "Parameters", "The fitted values as lines NAME = VALUE, for --parameters."),
     ("report", "Report", "The whole answer on one page that needs nothing else."),

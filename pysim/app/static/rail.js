@@ -21,7 +21,8 @@ document.addEventListener("keydown", (event) => {
   if (event.target.matches?.("textarea, input:not([type=range], [type=checkbox])")) return;
   const key = event.key.toLowerCase();
   const command = event.ctrlKey || event.metaKey;
-  const name = !command ? { "?": "help" }[key] : key === "z" ? (event.shiftKey ? "redo" : "undo") : { y: "redo" }[key];
+  const shut = document.querySelector(".help") ? "help" : "";
+  const name = !command ? { "?": "help", escape: shut }[key] : key === "z" ? (event.shiftKey ? "redo" : "undo") : { y: "redo" }[key];
   if (!name || event.altKey) return;
   event.preventDefault();
   emitEvent(name);

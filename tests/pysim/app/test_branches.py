@@ -40,12 +40,14 @@ def test_branches_stand_side_by_side_and_one_is_deleted(shown: Shown, show: Show
     tab.see("Undo toy.friction")
     tab.page.keyboard.press("Control+z")
     tab.page.get_by_role("button", name="Undo toy.friction").wait_for(state="detached")
+    gone = tab.page.get_by_role("button", name="delete toy.hardening")
     tab.press("delete toy.hardening")
-    tab.page.get_by_text("Branches").wait_for(state="detached")
+    gone.wait_for(state="detached")
+    tab.see("Branches")  # the other one is not shown, and can be
     tab.page.keyboard.press("Control+z")
-    tab.see("Branches")
+    gone.wait_for()
     tab.page.keyboard.press("Control+y")
-    tab.page.get_by_text("Branches").wait_for(state="detached")
+    gone.wait_for(state="detached")
     assert tab.errors == []
     for folder in (tmp_path / "other", project.folder):
         show(folder)  # a server that comes anew removes what was deleted

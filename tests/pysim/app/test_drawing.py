@@ -60,5 +60,8 @@ def test_slots_are_buttons_for_mouse_and_keyboard(show: Show, shown: Shown, tmp_
     tab.see("Effects that fit here")
     assert slot.get_attribute("aria-pressed") == "true"
     tab.shot("drawing")
+    assert (
+        tab.page.evaluate("getComputedStyle(document.body).overflowY") == "hidden"
+    )  # the page scrolls, and that alone
     assert tab.errors == []
     assert tab.foreign() == []

@@ -17,6 +17,7 @@ def test_a_class_tells_its_slots_and_what_they_take(tmp_path: Path) -> None:
     assert {p["name"]: p["nominal"] for p in found["parameters"]} == {"m": 1, "d": 1, "k": 10}
     assert ["F", "input", "N", ""] in found["variables"]
     assert found["slots"] == [{"name": "force", "about": "", "sees": ["x", "v"], "gives": ["f"]}]
+    assert ["force"] in found["pairs"]
     friction = found["effects"][0]
     assert (friction["law"], friction["parameters"][0]["nominal"]) == ("f = -F_c*tanh(v/0.02);", 0.3)
 
