@@ -59,6 +59,20 @@ def test_single_logs_are_described_on_the_page(shown: Shown, show: Show, logs: l
     assert found["records"][0]["columns"] == ["time", "F", "x"]
     assert (folder / "earlier/data-1/run1.csv").read_bytes() == logs[0].read_bytes()  # as it was dropped
     tab.see("Ready to compare")
+    tab.page.get_by_label("F between samples").select_option("straight lines")
+    tab.until(lambda: tomllib.loads((folder / "data/dataset.toml").read_text())["signals"]["F"].get("hold") == "linear")
+    tab.page.get_by_label("held out, run1.csv").check()
+    tab.see("3 records, 2 not fitted")
+    more = tmp_path / "run4.csv"
+    more.write_bytes(logs[0].read_bytes())
+    tab.drop("files", logs[1], more)
+    tab.see("4 records, 2 not fitted")
+    records = tomllib.loads((folder / "data/dataset.toml").read_text())["records"]
+    uses = {"run1.csv": "test", "run2.csv": "fit", "run3.csv": "validate", "run4.csv": "fit"}
+    assert {record["file"]: record["use"] for record in records} == uses
+    tab.press("Put this data set aside")
+    tab.see("Bring back data-3")
+    assert not (folder / "data").exists()
     assert tab.errors == []
 
 

@@ -6,7 +6,6 @@ from pathlib import Path
 
 import pytest
 
-from pysim.app import tasks
 from pysim.app.jobs import ANSWER, CURVES, Job, Work, _write_job, works
 from pysim.app.project import Project
 from pysim.app.tasks import Tasks
@@ -70,8 +69,8 @@ def test_a_report_is_drawn_when_it_is_asked_for_and_after_a_restart_too(
     assert "<html" in (folder / named).read_text()
     first = {path.name: path.read_bytes() for path in (folder / "report").glob("*.png")}
     steps: list[Work] = []
-    told = tasks._steps
-    monkeypatch.setattr(tasks, "_steps", lambda work, parts: steps.append(work) or told(work, parts))
+    told = Tasks._function
+    monkeypatch.setattr(Tasks, "_function", lambda self, work, parts: steps.append(work) or told(self, work, parts))
     own.report("compare")  # it is kept
     assert steps == []
     Tasks(project.folder).report("compare")

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from pysim.app.jobs import works
 from pysim.app.project import Project
 from tests.pysim.app.browser import Show, Shown, Tab, artefacts
 from tests.pysim.app.made import rubbing
@@ -47,6 +48,14 @@ def test_a_law_is_written_over_the_learned_curve_and_added(shown: Shown, show: S
     assert project.settings().added == ("my.rubbing",)
     tab.go("Take away")
     assert "--library laws/MyRubbing.mo --effects my.rubbing" in tab.page.locator("pre").last.inner_text()
+    tab.see("report/MyRubbing.mo")  # which the class needs
+    tab.go("Locate")
+    tab.see("This was found of the model without effects.")
+    assert "--library laws/MyRubbing.mo --with my.rubbing" in " ".join(works(project)["locate"].words)
+    tab.page.get_by_role("button", name="Locate", disabled=False).click()
+    tab.page.get_by_text("This was found of the model").wait_for(state="detached", timeout=1000 * PATIENCE)
+    tab.idle()
+    assert "Done after" in tab.page.locator(".top").inner_text()
     tab.go("Add")
     tab.page.keyboard.press("Control+z")
     tab.page.get_by_role("button", name=re.compile("^Undo my")).wait_for(state="detached")
