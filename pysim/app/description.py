@@ -84,7 +84,7 @@ def put_use(content: dict[str, Any], read: Sequence[str], number: int, use: str)
         record["use"] = use
 
 
-READ = {"as the log looks": None, "held": "zero", "straight lines": "linear", "smooth": "spline"}  # words, and `hold`
+READ = {"as it looks": None, "held": "zero", "straight lines": "linear", "smooth": "spline"}  # words, and `hold`
 
 
 ROLES = ("input", "output", "left out")

@@ -184,7 +184,7 @@ def _signals(desk: Desk) -> None:
     with card("Signals"):
         told = "Signal = factor × column + offset, in this unit: a factor of −1 turns a sign, volts become bar. "
         text("p", f"{told}Noise is one standard deviation; left empty, it is estimated from the logs.", "small")
-        with box("form").style("grid-template-columns: 1.1fr 0.8fr 0.7fr 1.4fr 1fr repeat(4, 0.7fr)"):
+        with box("form").style("grid-template-columns: 1fr 0.8fr 0.7fr 1.3fr 1.2fr repeat(4, 0.7fr)"):
             for words in ("signal", "role", "unit", "variable of the model", "between samples", *_NUMBERS):
                 text("span", words, "head")
             for name, section in content["signals"].items():
