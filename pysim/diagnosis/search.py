@@ -124,7 +124,7 @@ class Search:
         self.floors, self.tried = Floors(), 0
         self._tables: dict[frozenset[str], Table] = {}
         self._fits: dict[tuple[frozenset[str], bool], FinalFit] = {}
-        self._unfitted: dict[tuple[frozenset[str], bool], tuple[FinalFit, rivals.Rows | None, float]] = {}
+        self._unfitted: dict[tuple[frozenset[str], bool, bool], tuple[FinalFit, rivals.Rows | None, float]] = {}
         models.watch = self._tried
 
     def _tried(self, fit: FinalFit) -> None:
@@ -504,24 +504,26 @@ class Search:
         """By how many nats the logs that may choose get worse, and how many chance makes of it; None without such."""
         if not larger.candidate.residuals(larger.simulation, "validate").observations:
             return None
-        (own, cost), (other, before) = map(self._beside_unfitted, (larger, smaller))
+        opened = not (larger.candidate.law or larger.candidate.has_events)
+        (own, cost), (other, before) = (self._beside_unfitted(one, opened) for one in (larger, smaller))
         if own is None or other is None:
             return None if own is other else (cost - before, 0.0)  # one cannot be simulated there: infinite
         return cost - before, rivals.reach(own, other, self.settings.tie)
 
-    def _beside_unfitted(self, fit: FinalFit) -> tuple[rivals.Rows | None, float]:
-        """A fit beside the logs that may choose, as near to them as it leaves its parameters open: rows, none where one
-        cannot be simulated, and nats."""
-        known = self._unfitted.get(_key(fit.candidate))
+    def _beside_unfitted(self, fit: FinalFit, opened: bool) -> tuple[rivals.Rows | None, float]:
+        """A fit beside the logs that may choose, opened: as near to them as it leaves its parameters open. Rows, none
+        where one cannot be simulated, and nats. A law is not opened: it would bend where nothing was measured."""
+        key = (*_key(fit.candidate), opened)
+        known = self._unfitted.get(key)
         if known is None or known[0] is not fit:
             residuals = fit.candidate.residuals(fit.simulation, "validate")
             residuals = replace(residuals, nuisances=(), known=fit.sensor_errors)
             model, space = fit.candidate.model, fit.candidate.space
             point = settled_initial_states(residuals, model, space, fit.point.x)
-            if point.good and not fit.candidate.has_events:
+            if point.good and opened:
                 point = moved(fit, residuals.evaluate(model, space, fit.point.x, point.carried))
             rows = rivals.rows(fit.candidate, residuals, point) if point.good else None
-            known = self._unfitted[_key(fit.candidate)] = fit, rows, point.cost
+            known = self._unfitted[key] = fit, rows, point.cost
         return known[1:]
 
     def _without(self, fit: FinalFit, label: str) -> FinalFit:
