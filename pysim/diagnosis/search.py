@@ -258,7 +258,9 @@ class Search:
             raise BadInput(f"{effects[-1].name}: the model cannot be simulated with it")
         starts = [begin(candidate, one.values, self.rough, self._beside(present, candidate.transient)) for one in found]
         best = min((fit for fit in starts if fit.good), key=lambda fit: fit.point.cost)
-        return self._keep(self._fine_enough(converged(best, self.fine)))
+        fit = self._fine_enough(converged(best, self.fine))
+        self.fine = min(self.fine, fit.simulation, key=lambda one: one.solver.rtol)
+        return self._keep(fit)
 
     def run(self, base: FinalFit, most: int) -> Found:
         """Forward along the best steps, then backward from their end."""

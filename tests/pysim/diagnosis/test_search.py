@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from pysim.diagnosis import diagnose
+from pysim.diagnosis import add, diagnose
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.progress import Progress
@@ -210,3 +210,11 @@ def test_what_came_in_first_is_exchanged_for_what_does_better_beside_the_rest(fi
     assert [step.model.names for step in found] == [("mass.friction",), ("mass.friction", "mass.bias")]
     assert found[-1].model.values["mass.friction", "F_c"] == pytest.approx(0.4, rel=0.1)
     assert found[0].rivals[0].added == "mass.friction"
+
+
+def test_errors_of_an_effect_that_is_asked_for_are_those_of_runs_as_fine_as_it_needs() -> None:
+    """A sharp sign is integrated wrongly where runs are as rough as the base model allows; a search refines them."""
+    data = measured("mass", {"mass.friction": {"F_c": 0.4}}, {"m": 1.05, "d": 1.8, "k": 42.0})
+    opened = given("mass", data, ["mass.friction"], initial="near rest")
+    asked, sought = add(opened, opened.catalogue), diagnose(replace(opened, build_law=None))
+    assert asked.history[-1].fit == pytest.approx(sought.history[-1].fit, abs=0.005)
