@@ -201,7 +201,8 @@ def _answer(
     if learning is not None and learning.law is not None:
         law, complete = learning.law, False  # what the law is has no name yet
         found, named = _with_law(found, named, law)
-        account = _account(session, found, named, search.fine)
+        fine = min(search.fine, law.fit.simulation, key=lambda one: one.solver.rtol)
+        account = _account(session, found, named, fine)
         estimates = law.of_the_model(account.history[-1].estimates)
         account = replace(account, history=(*account.history[:-1], replace(account.history[-1], estimates=estimates)))
     history = account.history

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.optimize import least_squares
 
-from pysim.diagnosis import add, diagnose
+from pysim.diagnosis import add, diagnose, learn
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.progress import Progress
@@ -218,3 +218,11 @@ def test_errors_of_an_effect_that_is_asked_for_are_those_of_runs_as_fine_as_it_n
     opened = given("mass", data, ["mass.friction"], initial="near rest")
     asked, sought = add(opened, opened.catalogue), diagnose(replace(opened, build_law=None))
     assert asked.history[-1].fit == pytest.approx(sought.history[-1].fit, abs=0.005)
+
+
+def test_errors_of_a_learned_law_are_those_of_runs_as_fine_as_it_needs() -> None:
+    """A friction that changes sign sharply, learned where no effect is like it, leaves as little as the effect."""
+    data = measured("mass", {"mass.friction": {"F_c": 0.4}}, {"m": 1.05, "d": 1.8, "k": 42.0})
+    with_it, without = (given("mass", data, [name], initial="near rest") for name in ("mass.friction", "mass.bias"))
+    asked, learned = add(with_it, with_it.catalogue), learn(without)
+    assert learned.history[-1].fit == pytest.approx(asked.history[-1].fit, abs=0.02)
