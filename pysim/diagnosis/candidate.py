@@ -231,7 +231,8 @@ class Models:
 
     @cached_property
     def all_transient(self) -> bool:
-        """Whether some stepped sine is compared sample by sample, since the plant had not settled."""
+        """Whether some stepped sine is compared sample by sample, since the plant had not settled; or a search says so
+        of all, where the model had not."""
         counts = [sum(one.domain == "time" for one in self._problem((), t).observations) for t in (False, True)]
         return counts[0] != counts[1]
 

@@ -20,7 +20,7 @@ from pysim.diagnosis.learn.outside import outside_laws
 from pysim.diagnosis.left import follows
 from pysim.diagnosis.next_test import next_test
 from pysim.diagnosis.progress import Progress, Say
-from pysim.diagnosis.refit import FinalFit, begin, converged, integrated
+from pysim.diagnosis.refit import FinalFit, begin, converged, finest, integrated
 from pysim.diagnosis.search import Found, Search
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
@@ -201,8 +201,7 @@ def _answer(
     if learning is not None and learning.law is not None:
         law, complete = learning.law, False  # what the law is has no name yet
         found, named = _with_law(found, named, law)
-        fine = min(search.fine, law.fit.simulation, key=lambda one: one.solver.rtol)
-        account = _account(session, found, named, fine)
+        account = _account(session, found, named, finest(search.fine, law.fit.simulation))
         estimates = law.of_the_model(account.history[-1].estimates)
         account = replace(account, history=(*account.history[:-1], replace(account.history[-1], estimates=estimates)))
     history = account.history

@@ -214,6 +214,11 @@ def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
     return fit
 
 
+def finest(*simulations: Simulation) -> Simulation:
+    """The one of the smallest tolerance."""
+    return min(simulations, key=lambda one: one.solver.rtol)
+
+
 def integrated(fit: FinalFit, refinements: int) -> FinalFit:
     """Gone on with by ten times finer integrations, until one gains no more than what ends a search.
 
@@ -229,7 +234,7 @@ def integrated(fit: FinalFit, refinements: int) -> FinalFit:
     return fit
 
 
-def moved(fit: FinalFit, other: Point) -> Point:
+def brought_near(fit: FinalFit, other: Point) -> Point:
     """A point beside other measurements, to first order moved as near to them as the fit leaves its parameters open.
 
     What they cost besides is what the move costs the fit. Source: Rasmussen and Williams 2006, Gaussian Processes for

@@ -17,7 +17,7 @@ from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, advance, begin, begin_anywhere, converged, moved, race
+from pysim.diagnosis.refit import FinalFit, advance, begin, begin_anywhere, brought_near, converged, finest, race
 from pysim.diagnosis.screen import Screened, best_of_each, screen, screened
 from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts, with_sensor_errors
@@ -162,12 +162,14 @@ class Search:
     def _as_measured(self, fit: FinalFit) -> FinalFit:
         """A fit with stepped sines run as the bench ran them, where that promises more: a swing that dies away slowly
         is not steady yet when a log ends. All other models are compared in the same way then."""
+        if fit.candidate.transient or all(one.domain == "time" for one in fit.candidate.problem.observations):
+            return fit
         candidate = self.models.of(fit.candidate.effects, transient=True)
-        other = begin(candidate, fit.values, fit.simulation)
-        if fit.candidate.transient or not other.good or fit.point.cost - other.expected < self._hardly(fit):
+        other, least = begin(candidate, fit.values, fit.simulation, fit), fit.point.cost - self._hardly(fit)
+        if not other.good or other.expected > least:
             return fit
         transient = self._once("base, transient", lambda: converged(other), candidate)
-        if fit.point.cost - transient.point.cost < self._hardly(fit):
+        if transient.point.cost > least:
             return fit
         self.models.all_transient = True
         return transient
@@ -259,7 +261,7 @@ class Search:
         starts = [begin(candidate, one.values, self.rough, self._beside(present, candidate.transient)) for one in found]
         best = min((fit for fit in starts if fit.good), key=lambda fit: fit.point.cost)
         fit = self._fine_enough(converged(best, self.fine))
-        self.fine = min(self.fine, fit.simulation, key=lambda one: one.solver.rtol)
+        self.fine = finest(self.fine, fit.simulation)
         return self._keep(fit)
 
     def run(self, base: FinalFit, most: int) -> Found:
@@ -272,15 +274,6 @@ class Search:
         limited = len(steps) == most and not self.is_done(end.final)
         table = self._tables.get(frozenset(end.final.candidate.labels))
         return replace(end, more=end.more or limited or (table is not None and bool(table.beyond)))
-
-    def _worth(self, base: FinalFit, fit: FinalFit) -> float:
-        """Penalised gain of a model."""
-        if fit is base:
-            return 0.0
-        base = self._beside(base, fit.candidate.transient)
-        df, left = fit.candidate.size - base.candidate.size, rivals.of(fit)
-        inflated = rivals.effective(left, rivals.of(base).residual - left.residual)
-        return rivals.penalised(base.point.cost - fit.point.cost, df, inflated, rivals.samples(base))
 
     def is_done(self, fit: FinalFit) -> bool:
         """Whether a model leaves so little over the floor that no two effects together are worth a trial."""
@@ -302,7 +295,7 @@ class Search:
                 break
             if in_vain == self.settings.on_trial and gained + best.test.gain < self.settings.small * worth:
                 break
-            self.fine = min(self.fine, best.fit.simulation, key=lambda one: one.solver.rtol)
+            self.fine = finest(self.fine, best.fit.simulation)
             present = self._keep(converged(best.fit, self.fine))
             steps.append(Step(present, best.added, best.test, not sure, tuple(tried.rivals)))
             steps = self._exchanged(base, steps)
@@ -322,9 +315,10 @@ class Search:
             least, have = self.settings.promising * first.test.gain, present.candidate.labels
             others = [one for one in others if one.test.gain >= least and one.added not in have]
             fits = {first.added: present} | {one.added: self._in_place(present, first.added, one) for one in others}
-            best, *_ = self._ordered(
-                [Compared(fit, name, self.test(base, fit)) for name, fit in fits.items() if fit.good]
-            )
+            tested = [Compared(fit, name, self.test(base, fit)) for name, fit in fits.items() if fit.good]
+            best = next(iter(self._ordered(tested)), first)
+            if best is first:  # steps on trial that gain nothing together
+                continue
             ranked = sorted(step.rivals, key=lambda one: one.added != best.added)
             untried = [name for name in first.ties if name not in fits and name not in have]
             ranked[0] = replace(ranked[0], ties=(*best.ties, *untried))
@@ -523,7 +517,7 @@ class Search:
             model, space = fit.candidate.model, fit.candidate.space
             point = settled_initial_states(residuals, model, space, fit.point.x)
             if point.good and opened:
-                point = moved(fit, residuals.evaluate(model, space, fit.point.x, point.carried))
+                point = brought_near(fit, residuals.evaluate(model, space, fit.point.x, point.carried))
             rows = rivals.rows(fit.candidate, residuals, point) if point.good else None
             known = self._unfitted[key] = fit, rows, point.cost
         return known[1:]

@@ -60,7 +60,7 @@ def _asked(diagnosis: Diagnosis) -> str:
 
 
 def _rest(diagnosis: Diagnosis) -> str:
-    """What is left where nothing is in it that was looked for: noise, up to what the diagnosis grants held-out logs."""
+    """What is left where nothing is in it that was looked for: noise, up to 1.05 times it (`Settings.held_out`)."""
     size = diagnosis.left.fit or diagnosis.left.validate or 0.0
     if size <= 1.05:
         return "Nothing but noise is left."

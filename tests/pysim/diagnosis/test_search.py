@@ -226,3 +226,20 @@ def test_errors_of_a_learned_law_are_those_of_runs_as_fine_as_it_needs() -> None
     with_it, without = (given("mass", data, [name], initial="near rest") for name in ("mass.friction", "mass.bias"))
     asked, learned = add(with_it, with_it.catalogue), learn(without)
     assert learned.history[-1].fit == pytest.approx(asked.history[-1].fit, abs=0.02)
+
+
+def test_choices_that_gain_nothing_together_are_not_exchanged() -> None:
+    """Beside themselves: two steps on trial may gain nothing over the base model."""
+    data = measured("mass", {}, {"m": 1.05})
+    opened = given("mass", data, ["mass.friction", "mass.drag", "mass.bias"])
+    search = Search(Models(opened), FINE, opened.settings, Progress(lambda told: None), Checkpoint(None, ""))
+    base = search.fit_base()
+    known = {effect.name: effect for effect in opened.catalogue}
+    first = search.with_effects(base, [known["mass.drag"]])
+    second = search.with_effects(first, [known["mass.drag"], known["mass.bias"]])
+    trial = Compared(first, "mass.drag", search.test(base, first))
+    steps = [
+        Step(first, "mass.drag", trial.test, True, (trial,)),
+        Step(second, "mass.bias", search.test(first, second), True, ()),
+    ]
+    assert search._exchanged(second, list(steps)) == steps
