@@ -98,10 +98,8 @@ class Answers:
         """The result whose model has just these effects; without any, whatever has the refitted model."""
         if added:
             return self.branches.get(added)
-        exact = next((one for one in self.all if not one.added and one.stages.about), None)
-        if exact is not None:
-            return exact
-        return next((one for one in self.all if one.stage("refit")), None)
+        exact = (one for one in self.all if not one.added and one.stages.about)
+        return next(exact, next((one for one in self.all if one.stage("refit")), None))
 
     @property
     def branches(self) -> dict[tuple[str, ...], Answer]:

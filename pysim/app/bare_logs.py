@@ -140,19 +140,18 @@ def _refuse_unlike(folder: Path, columns: Sequence[Mapping[str, Any]]) -> None:
                 raise BadInput(f"{log.name} has {found[0]!r}, and another log {heading!r}; give all logs one unit")
 
 
-def add_logs(folder: Path, data: Path, into: Path) -> None:
+def add_logs(folder: Path, data: Path, into: Path) -> Path:
     """More logs, beside those that are there and described as those are; one takes the place of its namesake.
 
     Args:
         data: the data set, or logs that nobody has described yet.
-        into: where all of them go; not there yet.
+        into: where all of them go, and what is returned; not there yet.
     Raises:
         BadInput: one that is not like those that are there.
     """
     shutil.copytree(data, into)
     if not (into / "dataset.toml").is_file():
-        shutil.copytree(folder, into, dirs_exist_ok=True)
-        return
+        return Path(shutil.copytree(folder, into, dirs_exist_ok=True))
     content = read_description(into / "dataset.toml")
     known = {PurePosixPath(log_source(str(one["file"]))).name: one for one in content["records"]}
     if (into / COLUMNS).is_file():
@@ -172,6 +171,7 @@ def add_logs(folder: Path, data: Path, into: Path) -> None:
     for file, why in read_described(into, partly=True).refused:
         if PurePosixPath(file).name in {PurePosixPath(one["file"]).name for one in new}:
             raise BadInput(f"{why}; or put the data set aside on the page Data, and drop all logs anew")
+    return into
 
 
 def _sines(folder: Path, content: Mapping[str, Any]) -> list[dict[str, Any]]:

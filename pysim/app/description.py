@@ -1,7 +1,6 @@
 """The data set's dataset.toml, edited on the page: signals, units, noise, which records are not fitted.
 
-What edits it changes the `content` of the whole, or the `section` of a signal. What is refused is a `BadInput`.
-"""
+What edits it changes the `content` of the whole, or the `section` of a signal. What is refused is a `BadInput`."""
 
 from __future__ import annotations
 
@@ -85,8 +84,6 @@ def put_use(content: dict[str, Any], read: Sequence[str], number: int, use: str)
 
 
 READ = {"as it looks": None, "held": "zero", "straight lines": "linear", "smooth": "spline"}  # words, and `hold`
-
-
 ROLES = ("input", "output", "left out")
 
 

@@ -17,7 +17,6 @@ from pysim.app.upload import Limits
 from pysim.io import shown_value
 
 _STATIC = Path(__file__).parent / "static"
-_Do = Callable[..., Any]  # what an event calls; the class says with what
 
 assert nicegui.elements.plotly
 
@@ -38,7 +37,8 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
 
     def __init__(
         self, figure: Mapping[str, Any], label: str, *, series: Mapping[str, Any] | None = None,
-        on_pick: _Do | None = None, on_range: _Do | None = None, height: int = 360,
+        on_pick: Callable[[dict[str, Any]], Any] | None = None,
+        on_range: Callable[[tuple[float, float] | None], Any] | None = None, height: int = 360,
     ) -> None:  # fmt: skip
         super().__init__()
         self._props["series"] = series
@@ -72,7 +72,10 @@ class Sliders(Element, component=str(_STATIC / "sliders.js")):
 
     follows = True
 
-    def __init__(self, rows: Sequence[Mapping[str, Any]], on_move: _Do, on_fit: _Do, on_bound: _Do) -> None:
+    def __init__(
+        self, rows: Sequence[Mapping[str, Any]], on_move: Callable[[str, float, bool], Any],
+        on_fit: Callable[[str, bool], Any], on_bound: Callable[[str, str, float], Any],
+    ) -> None:  # fmt: skip
         super().__init__()
         self._props["rows"] = list(rows)
         self.on("move", lambda event: on_move(*(event.args[key] for key in ("name", "value", "done"))))
@@ -99,7 +102,8 @@ class Table(Element, component=str(_STATIC / "table.js")):
 
     def __init__(
         self, label: str, columns: Sequence[tuple[str, str]], rows: Sequence[Sequence[Any]], *,
-        on_row: _Do | None = None, on_tick: _Do | None = None, picked: int = -1, height: str = "",
+        on_row: Callable[[int], Any] | None = None, on_tick: Callable[[int, str, bool], Any] | None = None,
+        picked: int = -1, height: str = "",
     ) -> None:  # fmt: skip
         super().__init__()
         self._props["columns"] = [{"title": title, "kind": kind} for title, kind in columns]
@@ -134,7 +138,7 @@ class Drawing(Element, component=str(_STATIC / "drawing.js")):
 
     def __init__(
         self, label: str, places: Sequence[Mapping[str, Any]], links: Sequence[Mapping[str, Any]], *,
-        on_pick: _Do, picked: str,
+        on_pick: Callable[[str], Any], picked: str,
     ) -> None:  # fmt: skip
         super().__init__()
         self._props["label"], self._props["picked"] = label, picked

@@ -211,7 +211,7 @@ def adopt(batch: Batch, project: Project) -> Adopted:
 def _logs(root: Path, logs: Sequence[Path], project: Project) -> Adopted:
     folder, count, more = _single(root), counted(len(logs), "log"), project.data.exists()
     if more:
-        add_logs(folder, project.data, folder := root.with_name(f"{root.name}-all"))
+        folder = add_logs(folder, project.data, root.with_name(f"{root.name}-all"))
     kept = project.replace_data(folder)
     text = f"{count} {'more' if more else 'without a dataset.toml; say below what their columns are'}{_kept(kept)}"
     return Adopted("logs", text)

@@ -62,9 +62,7 @@ class _Follows:
         with card() as self._place, box("row end"):
             self._state = text("span", "", "statement")
             with box("form").style("width: 240px"):
-                Choice(
-                    "log that is shown", logs, logs[self.number], lambda one: setattr(self, "number", logs.index(one))
-                )
+                Choice("log that is shown", logs, logs[self.number], lambda one: self._look(logs.index(one)))
         with card("Parameters"):
             self._sliders = Sliders(self._rows(), self._moved, self._fit, self._bound)
             with box("row"):
@@ -93,6 +91,9 @@ class _Follows:
     def _ends(self) -> list[dict[str, Any]]:
         """All that the rows say but for the values."""
         return [{**row, "value": None} for row in self._rows()]
+
+    def _look(self, number: int) -> None:
+        self.number = number
 
     def _all(self) -> dict[str, float]:
         return {row["name"]: row["value"] for row in self._rows()}
