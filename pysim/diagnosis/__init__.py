@@ -1,9 +1,9 @@
-"""Which physical effect is missing: the steps in a row, and each of them alone.
+"""Find the physical effects that a model lacks, from measurements.
 
-`diagnose` searches, `learn` looks for a law that no catalogue has, `add` adds given effects, `rank` tries each beside
-the base model, `compare` holds the model beside the measurements. Each takes a `Session`, which `pysim.open_session`
-opens by names and `session` from objects. `compare_responses` repeats stepped-sine tests that were measured as tables
-of frequency responses.
+`diagnose` searches the catalogue of effects, `learn` estimates a law that no catalogue has, `add` adds given effects,
+`rank` tests each effect beside the base model, and `compare` compares the model with the measurements. Each takes a
+`Session`, which `pysim.open_session` makes from names and `session` from objects. `compare_responses` repeats
+stepped-sine tests that were measured as tables of frequency responses.
 """
 
 from pysim.diagnosis.engine import add, compare, diagnose, learn, rank

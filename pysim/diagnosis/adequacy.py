@@ -1,4 +1,4 @@
-"""What measurements can carry: those that cannot carry a diagnosis are refused, what weakens the answer is noted."""
+"""Check whether measurements suffice for a diagnosis: refuse those that do not, note what weakens the answer."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ FEWEST = 10
 
 
 def shortcomings(dataset: Dataset, free: Sequence[str], *, at_rest: bool = False) -> tuple[str, ...]:
-    """Look at the records before anything is run.
+    """Check a data set before anything is simulated.
 
     Args:
         free: parameters that will be refitted.
-        at_rest: whether logs count as begun at rest, whatever they say.
+        at_rest: whether every log counts as begun at rest, whatever its record says.
     Returns:
-        notes on what the answer lacks: a record that is not fitted, a second signal, an input that moves.
+        a note for each weakness: no log is held out, only one signal was logged, an input never moves.
     Raises:
-        BadInput: too few samples for the parameters, or no input moves.
+        BadInput: fewer than FEWEST samples to fit per free parameter, or no input moves.
     """
     fitted = [record for record in dataset.records if record.use == "fit"]
     count = sum(_samples(record, dataset) for record in fitted)
@@ -45,7 +45,7 @@ def shortcomings(dataset: Dataset, free: Sequence[str], *, at_rest: bool = False
 
 
 def _samples(record: MeasuredRecord, dataset: Dataset) -> int:
-    """Numbers that can be fitted."""
+    """How many numbers of a record can be fitted: gain and phase per frequency, or samples times outputs."""
     if isinstance(record.data, FrequencyResponse):
         return 2 * record.data.frequency.size
     return record.data.time.size * len(dataset.columns(record, "output"))
@@ -58,7 +58,7 @@ def _outputs(record: MeasuredRecord, dataset: Dataset) -> Sequence[str]:
 
 
 def _still(dataset: Dataset, fitted: Sequence[MeasuredRecord], at_rest: bool) -> Sequence[str]:
-    """A note on inputs that never move; refuses where none does, unless the plant moved when the logs began."""
+    """Notes on inputs that never move. Raises BadInput if no input moves and every log begins at rest."""
     if any(isinstance(record.data, FrequencyResponse) for record in fitted):
         return ()
     decays = not at_rest and any(record.initial == "estimate" for record in fitted)

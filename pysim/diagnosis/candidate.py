@@ -1,4 +1,7 @@
-"""A model with effects and sensor errors: what is free in it, and how numbers go from one such model to another."""
+"""Candidates: the base model with effects and sensor errors added, their free parameters and their compiled models.
+
+Stepped sines are compared by the model's periodic orbit, or "transient": simulated over time as the bench ran them.
+"""
 
 from __future__ import annotations
 
@@ -22,11 +25,11 @@ from pysim.types._frozen import FrozenMapping
 
 Array = NDArray[np.float64]
 
-# A parameter of the base model by its name; one of an effect by the effect's name and its own.
+# Key of a free parameter: its name in the base model, or the names of the effect and of the effect's parameter.
 Key = str | tuple[str, str]
 Values = Mapping[Key, float]
 
-# What only a model with events can say, what keeps relations from being events, and what is for readers alone.
+# Modelica text that makes events, calls inside which a relation makes none, and strings and comments.
 _SWITCHES = re.compile(r"\b(when|pre|sample|reinit|edge|change|div|mod|rem|ceil|floor|integer)\b|[<>]")
 _NO_EVENT = re.compile(r"\b(noEvent|smooth)\s*\(")
 _WORDS = re.compile(r'"(?:[^"\\]|\\.)*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
@@ -34,18 +37,18 @@ _WORDS = re.compile(r'"(?:[^"\\]|\\.)*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 @dataclass(frozen=True)
 class Candidate:
-    """Effects and sensor errors in a model.
+    """The base model with some effects and sensor errors: one hypothesis about what is missing.
 
     Args:
-        effects: in the order in which they were added; none for the base model.
-        nuisances: sensor errors that are free.
-        problem: the model, its free numbers and the measurements beside it.
-        places: effect name -> name ahead of its parameters in the model.
-        transient: whether stepped sines run as the bench ran them, since the model may have no periodic orbit.
-        has_events: whether a law in the model has: its slopes are then those of secants.
-        precision: (n, n) of a prior of the free parameters, in the search's numbers; none where None.
-        law: label of a learned law that is in it too; "" without one.
-        watch: gets its FinalFit at every point of its search.
+        effects: in the order in which they were added; empty for the base model.
+        nuisances: sensor errors (gain, offset, delay, drift) whose sizes are free.
+        problem: the model, its free parameters and the measurements.
+        places: effect name -> prefix of its parameters' names in the model.
+        transient: whether stepped sines are simulated over time, since the model may have no periodic orbit.
+        has_events: whether a law of its effects makes events; its Jacobian then comes from secants.
+        precision: (n, n) precision matrix of a Gaussian prior of the search variables x; None without a prior.
+        law: label of a learned law in the model; "" without one.
+        watch: called with the candidate's FinalFit at every iteration of its refit.
     """
 
     effects: tuple[Effect, ...]
@@ -63,77 +66,77 @@ class Candidate:
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of all that the base model lacks."""
+        """Names of the effects and sensor errors that were added to the base model."""
         return (*(effect.name for effect in self.effects), *map(sensor_name, self.nuisances))
 
     @property
     def labels(self) -> tuple[str, ...]:
-        """The same, each of them named apart from all others: sensor errors with their signal."""
+        """Unique names of them: sensor errors with their data set and signal."""
         return (*(e.name for e in self.effects), *(f"{sensor_name(n)} {n.dataset}.{n.signal}" for n in self.nuisances))
 
     @property
     def parts(self) -> dict[str, Effect | Nuisance]:
-        """Effects and sensor errors by their labels."""
+        """Label -> effect or sensor error."""
         return dict(zip(self.labels, (*self.effects, *self.nuisances), strict=True))
 
     @property
     def model(self) -> Model:
-        """With the effects in it."""
+        """The compiled model; it may hold more effects than these, switched off."""
         return self.problem.model
 
     @property
     def space(self) -> ParameterSpace:
-        """Of the search: the base model's parameters, then the effects' own."""
+        """The free parameters and their scaling: those of the base model, then those of the effects."""
         return self.problem.space
 
     @property
     def size(self) -> int:
-        """How many numbers are free, those of the sensors too."""
+        """Number of free parameters, the sizes of sensor errors included."""
         return self.space.size + len(self.nuisances)
 
     @property
     def keys(self) -> tuple[Key, ...]:
-        """Of the free parameters, in the order of the space."""
+        """Key of each free parameter, in the order of `space`."""
         own = {f"{self.places[e.name]}.{p.name}": (e.name, p.name) for e in self.effects for p in e.parameters}
         return tuple(own.get(key, key) for key in self.space.keys)
 
     def keeps_state(self, name: str) -> bool:
-        """Whether an effect's law has a state of its own."""
+        """Whether the law of the effect `name` has a state of its own, as hysteresis has."""
         return any(state.startswith(f"{self.places[name]}.") for state in self.model.abilities.states)
 
     def residuals(self, simulation: Simulation, use: str = "fit") -> WeightedResiduals:
-        """What is counted of the records of one use."""
+        """Residuals over their levels of the logs of one use, "fit" or "validate", with the sensor errors free."""
         return replace(self.problem.residuals(NOISE, simulation, use=use), nuisances=self.nuisances)
 
     def values(self, x: Array) -> dict[Key, float]:
-        """The free parameters at x (n,)."""
+        """Key -> value in the model's units of each free parameter at x (n,), the search variables."""
         return dict(zip(self.keys, self.space.to_model(x).tolist(), strict=True))
 
     def at(self, values: Values) -> Array:
-        """x (n,) with these values, within the bounds; parameters that are not named as they start."""
+        """Search variables x (n,) of these values, clipped to the bounds; other parameters get their start values."""
         start = zip(self.keys, self.space.start.tolist(), strict=True)
         p = np.array([values.get(key, own) for key, own in start])
         return self.space.to_search(np.clip(p, self.space.lower, self.space.upper))
 
     def held(self, values: Values) -> ParameterSpace:
-        """Nothing free: every parameter of the model at these values, effects that are not named as declared."""
+        """A space without free parameters: these values fixed, every other parameter as the model declares it."""
         named = {key if isinstance(key, str) else f"{self.places[key[0]]}.{key[1]}": v for key, v in values.items()}
         return ParameterSpace.held(named)
 
     def levels(self, residuals: WeightedResiduals, point: Point) -> Array:
-        """(n_r,) level of each row of a good point; 1 of priors and of what has a known one."""
+        """(n_r,) level (standard deviation of the residual) of each row's channel; 1 for priors and known levels."""
         level = dict(zip(residuals.channels, point.levels.tolist(), strict=True))
         sizes = [1.0 if name is None else level[one.dataset, name] for one, name in residuals.series]
         return np.array([1.0, *sizes])[point.series + 1]
 
     def slopes(self, simulation: Simulation, point: Point) -> dict[Key, Array]:
-        """(n_r,) of the measurements' rows by each free parameter, in the units of the channels."""
+        """Key -> (n_r,) derivative of the measured rows' residual in the channels' units; empty without a Jacobian."""
         own = point.series >= 0
         size = self.levels(self.residuals(simulation), point)[own]
         return {key: point.jacobian[own, j] * size for j, key in enumerate(self.keys)} if point.jacobian.size else {}
 
     def carried(self, other: Candidate, point: Point) -> Carried:
-        """What a point of another model carries along, for this one: states by name, sensor errors by what they are."""
+        """Initial states and sensor errors at another candidate's point, matched by name to those of this one."""
         mine, its = self.model.abilities.states, other.model.abilities.states
         states: list[Array | None] = []
         runs = (one.residuals(Simulation()).runs for one in (self, other))
@@ -148,18 +151,15 @@ class Candidate:
 
 
 def sensor_name(nuisance: Nuisance) -> str:
-    """As the answer calls a sensor's error."""
+    """Name of a sensor error in the answer, such as "sensor.gain"."""
     return f"sensor.{nuisance.kind.value}"
 
 
 class Models:
-    """Makes candidates, each model built once.
+    """Makes candidates and compiles each model once.
 
-    Effects without events are built into one model together; each of the others, and what cannot be built together or
-    disturbs the others, into one of its own. An effect that has a smooth form is searched for in that form.
-
-    Args:
-        session: whose models these are.
+    Effects without events are compiled together into one model, or into several models if that fails. An effect with
+    events, or one that no value switches off (`bypass`), gets a model of its own. The search uses smooth forms.
     """
 
     def __init__(self, session: Session) -> None:
@@ -174,12 +174,12 @@ class Models:
     def of(
         self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = (), *, transient: bool = False
     ) -> Candidate:
-        """The model with these effects, in one that has more where there is one.
+        """The candidate with these effects, in a compiled model that may hold more of them, switched off.
 
         Args:
-            transient: as models with events are compared in any case.
+            transient: whether to simulate stepped sines over time; with events that is always done.
         Raises:
-            BadInput: it cannot be made.
+            BadInput: the model cannot be compiled.
         """
         effects = tuple(effects)
         laws = tuple(map(searched, effects))
@@ -194,13 +194,13 @@ class Models:
         return Candidate(effects, tuple(nuisances), problem, kept, transient, has_events, watch=self.watch)
 
     def of_parts(self, parts: Sequence[Effect | Nuisance], *, transient: bool = False) -> Candidate:
-        """As `of`, of effects and sensor errors in one list."""
+        """Like `of`, for effects and sensor errors in one list."""
         effects = [part for part in parts if isinstance(part, Effect)]
         return self.of(effects, [part for part in parts if isinstance(part, Nuisance)], transient=transient)
 
     def amounts(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = ()) -> Iterator[Candidate]:
-        """The model with these effects and amounts of others: in one all that are built together and keep no state,
-        each of the others alone; none that are limits, or would be beside events."""
+        """Candidates with these effects and further amounts: effects without events whose strength is not a limit.
+        Amounts without a state that are compiled together share a candidate; one with a state of its own gets one."""
         groups: dict[tuple[int, str], list[Effect]] = {}
         for effect in self.session.catalogue:
             if effect.limit or effect in effects:
@@ -218,10 +218,10 @@ class Models:
     def alone(
         self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = (), *, transient: bool = False
     ) -> Candidate:
-        """The model with these effects themselves and no others.
+        """The candidate whose model holds these effects in their true form, not the smooth one, and no others.
 
         Raises:
-            BadInput: it cannot be made.
+            BadInput: the model cannot be compiled.
         """
         effects = tuple(effects)
         has_events = any(map(switches, effects))
@@ -231,13 +231,13 @@ class Models:
 
     @cached_property
     def all_transient(self) -> bool:
-        """Whether some stepped sine is compared sample by sample, since the plant had not settled; or a search says so
-        of all, where the model had not."""
+        """Whether every candidate simulates its stepped sines over time, since in some log the plant had not settled.
+        The search sets it too, where the model's own transient has not died away when a log ends."""
         counts = [sum(one.domain == "time" for one in self._problem((), t).observations) for t in (False, True)]
         return counts[0] != counts[1]
 
     def _with_others(self, effects: tuple[Effect, ...]) -> tuple[Effect, ...]:
-        """The effects that are built with these: a group of smooth ones where the last of these is smooth too."""
+        """The effects to compile with these: the whole group that is compiled together with the last one, if any."""
         group = next((g for g in self._together if effects and effects[-1] in g), None)
         if group is None:
             return effects
@@ -269,7 +269,7 @@ class Models:
 
 
 def _split(group: tuple[Effect, ...]) -> Iterator[tuple[Effect, ...]]:
-    """Groups of a group that cannot be built: one effect of each slot in each; each alone where that was so already."""
+    """Smaller groups of one that does not compile, one effect of each slot in each; none if it was such a group."""
     slots: dict[str, list[Effect]] = {}
     for effect in group:
         slots.setdefault(effect.slot, []).append(effect)
@@ -281,17 +281,17 @@ def _split(group: tuple[Effect, ...]) -> Iterator[tuple[Effect, ...]]:
 
 
 def parameter(place: str, p: EffectParameter) -> Parameter:
-    """A free parameter of an effect; its strengths are searched on a linear scale, since they may be off."""
+    """An effect's parameter as a free one; strengths are searched on a linear scale, since they may be 0 (off)."""
     return Parameter(f"{place}.{p.name}", p.default, p.min, p.max, log=None if p.off is None else False)
 
 
 def searched(effect: Effect) -> Effect:
-    """The form in which an effect is searched for."""
+    """The form in which an effect is searched: its smooth one if it has one."""
     return effect.smooth or effect
 
 
 def switches(effect: Effect) -> bool:
-    """Whether the effect's law has events."""
+    """Whether the effect's law makes events: it has `when`, `pre` or the like, or a relation outside `noEvent`."""
     law = _WORDS.sub("", effect.law)
     while found := _NO_EVENT.search(law):
         depth, end = 1, found.end()

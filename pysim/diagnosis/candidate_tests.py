@@ -1,4 +1,4 @@
-"""Experiments that a bench could run next, within what it has run already."""
+"""Tests that a bench could run next: stepped sines and stochastic waves within the range of its earlier commands."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from pysim.types.record_kind import STEPPED_SINE, STOCHASTIC
 
 Array = NDArray[np.float64]
 
-_SOON = 0.01  # s ahead of the step that shows how long the system takes to settle
+_SOON = 0.01  # s before the step whose response shows the settling time
 
 
 @dataclass(frozen=True)
@@ -28,14 +28,14 @@ class CandidateTest:
 
     Args:
         input: the commanded signal.
-        offset: in its unit.
-        amplitude: of the sine, or the wave's significant height, in its unit.
-        frequency: of the sine or of the wave's peak, Hz.
-        periods: whole, of a sine; 0 for a wave.
-        length: s of a wave.
+        offset: mean of the command, in the signal's unit.
+        amplitude: of the sine, or the wave's significant height, in the signal's unit.
+        frequency: of the sine, or of the peak of the wave's spectrum, Hz.
+        periods: number of whole periods of a sine; 0 for a wave.
+        length: duration of a wave, s.
         interval: s between samples.
         hold: s at the offset until the system has settled.
-        seed: of a wave's draw.
+        seed: random seed of a wave.
     """
 
     input: MeasuredSignal
@@ -50,7 +50,7 @@ class CandidateTest:
 
     @property
     def command(self) -> Excitation:
-        """What drives it: rest, ramp, hold, then the sine or the wave."""
+        """The command over time: rest, ramp, hold, then the sine or the wave."""
         lead = LeadIn(hold=self.hold)
         if self.periods:
             return SteppedSineCommand(self.offset, self.amplitude, self.frequency, self.periods, lead)
@@ -59,21 +59,21 @@ class CandidateTest:
 
     @property
     def log_from(self) -> float:
-        """When its log starts, s: with the sine, or at rest before the wave."""
+        """Time at which the log starts, s: with the sine, or with the hold before the wave."""
         return self.command.onset - (0.0 if self.periods else self.hold)
 
     @property
     def seconds(self) -> float:
-        """On the bench, lead included."""
+        """Duration on the bench, s, lead-in included."""
         return self.command.end
 
     @property
     def samples(self) -> int:
-        """Of its log."""
+        """Number of samples in the log."""
         return math.floor((self.command.end - self.log_from) / self.interval + 1e-6)
 
     def repeated(self, count: int) -> tuple[CandidateTest, ...]:
-        """As much of the same: a sine of more periods, or the wave again."""
+        """`count` times the test: a sine with more periods, or the wave several times."""
         return (replace(self, periods=count * self.periods),) if self.periods else (self,) * count
 
     def experiment(self, model: Model, record: tuple[str, ...], overrides: dict[str, float]) -> Experiment:
@@ -83,9 +83,9 @@ class CandidateTest:
         return Experiment(times, record, commands, overrides, rates=model.rate_inputs(commands))
 
     def counted(self, rows: Array) -> Array:
-        """What a fit counts of rows (n_t, ...) of its log: a wave, and mean and harmonics of a sine once it is steady.
+        """What a fit compares of rows (n_t, ...) of the log, once the lead-in has died away.
 
-        What the lead-in leaves is left out: the hold ahead of a wave, since initial states are free, and a period.
+        Of a wave: the samples after the hold. Of a sine: mean and harmonics after the first period, orthonormalised.
         """
         if not self.periods:
             return rows[round(self.hold / self.interval) :]
@@ -96,7 +96,7 @@ class CandidateTest:
         return np.asarray(np.tensordot(onto.T, rows[steady], 1))
 
     def plan_rows(self, outputs: tuple[str, ...], name: str) -> list[str]:
-        """The test as a table of a test plan."""
+        """Lines of the test's [[tests]] table in a plan.toml; `outputs` are the signals to log."""
         names = ", ".join(f'"{output}"' for output in outputs)
         kind = STEPPED_SINE.name if self.periods else STOCHASTIC.name
         rows = ["[[tests]]", f'kind = "{kind}"', f"outputs = [{names}]"]
@@ -110,7 +110,7 @@ class CandidateTest:
 
     @property
     def planned(self) -> PlannedTest:
-        """As the answer has it."""
+        """The test in the form of the answer."""
         sizes = self.frequency, self.amplitude, self.offset
         return PlannedTest(bool(self.periods), *sizes, self.input.unit, self.command.end - self.command.onset)
 
@@ -118,13 +118,13 @@ class CandidateTest:
 def candidate_tests(
     dataset: Dataset, settled: Callable[[Experiment], float], model: Model, settings: TestSettings
 ) -> tuple[CandidateTest, ...]:
-    """Stepped sines and waves that stay between the data set's lowest and highest command, no faster than it can log.
+    """Stepped sines and waves between the data set's lowest and highest command, no faster than its logs resolve.
 
     Args:
-        settled: when a run that records nothing yet has settled, s.
+        settled: returns the time in s at which a run has settled; it chooses itself what the run records.
         model: of the system.
     Raises:
-        BadInput: no log over time, other than one command, or one that never moves.
+        BadInput: no log over time, not exactly one command, or a command that never moves.
     """
     inputs = [signal for signal in dataset.signals if signal.role == "input"]
     logs = [record.data for record in dataset.logs() if isinstance(record.data, Record)]
@@ -157,7 +157,7 @@ def candidate_tests(
 
 
 def _band(dataset: Dataset, logs: Sequence[Record], interval: float) -> tuple[float, float]:
-    """Lowest and highest frequency, Hz: of the sines that were run, or what the logs can show."""
+    """Lowest and highest frequency, Hz: of the stepped sines in the data set, else what its logs resolve."""
     run = {record.frequency for record in dataset.logs() if record.frequency is not None}
     if len(run) > 1:
         return min(run), max(run)
@@ -167,7 +167,7 @@ def _band(dataset: Dataset, logs: Sequence[Record], interval: float) -> tuple[fl
 def plan_text(
     tests: Sequence[CandidateTest], signals: Sequence[MeasuredSignal], system: str, separates: tuple[str, str]
 ) -> str:
-    """A test plan for `pysim bench` or a real one, which logs these signals."""
+    """Text of a plan.toml with these tests, which logs these signals, for `pysim bench` or a real bench."""
     one, other = separates
     rows = [f"# Separates {one} from {other}.", "", "[plan]", 'name = "next-test"']
     rows += [f'description = "to tell {one} from {other}"', f'system = "{system}"', ""]

@@ -1,4 +1,4 @@
-"""What a diagnosis has found so far, a line per finished part: a stopped one goes on from there."""
+"""Checkpoint of a diagnosis: a line per finished part of the search, from which a stopped diagnosis goes on."""
 
 from __future__ import annotations
 
@@ -19,17 +19,17 @@ from pysim.identify.greybox.residuals import Carried
 from pysim.io import write_file
 from pysim.types import BadInput, FitOutcome
 
-_FORM = 3  # raised whenever the same line would mean something else
+_FORM = 3  # version of the format; raise it when a line changes its meaning
 
 
 class Checkpoint:
-    """Refits by the name of their part, kept in a file of JSON lines if there is one; the first line says whose.
+    """Finished refits by the part of the search, in a file of JSON lines whose first line identifies the diagnosis.
 
     Args:
-        path: made where it is missing; None keeps nothing.
-        whose: text that tells this diagnosis from any other.
+        path: of the file, created if it is missing; None keeps nothing.
+        whose: text that identifies the diagnosis, as `whose` makes it.
     Raises:
-        BadInput: the file belongs to another diagnosis, or is none.
+        BadInput: the file belongs to another diagnosis, or is no checkpoint.
     """
 
     def __init__(self, path: Path | None, whose: str) -> None:
@@ -54,12 +54,12 @@ class Checkpoint:
         candidates: Sequence[Candidate],
         simulations: Sequence[Simulation],
     ) -> list[FinalFit]:
-        """The refits of a part: from the file, simulated once at where they ended, or found now and written there.
+        """The refits of one part: read from the file and simulated once at their ends, or found now and saved.
 
         Args:
-            part: its name, the same in every run.
-            candidates: that may be among them.
-            simulations: that they may have ended by.
+            part: its name, the same whenever this diagnosis runs.
+            candidates: all that the part may have refitted.
+            simulations: all solver settings with which its refits may have ended.
         """
         known = {(candidate.labels, candidate.transient): candidate for candidate in candidates}
         if part in self._known:
@@ -98,10 +98,10 @@ def _row(fit: FinalFit, simulations: Sequence[Simulation]) -> dict[str, Any]:
 
 
 def whole_lines(path: Path, what: str) -> list[dict[str, Any]]:
-    """Lines up to the first that a kill has cut; none where there is no file.
+    """JSON lines up to the first incomplete one, which a killed process leaves; empty if there is no file.
 
     Raises:
-        BadInput: the first is none of a `what`.
+        BadInput: the first line is not JSON; the message calls the file `what`.
     """
     found: list[dict[str, Any]] = []
     for line in path.read_text(encoding="utf-8").splitlines() if path.is_file() else ():
@@ -115,7 +115,7 @@ def whole_lines(path: Path, what: str) -> list[dict[str, Any]]:
 
 
 def whose(session: Session, step: str) -> str:
-    """Text that is the same for the same model, data, catalogue and settings only."""
+    """Text that identifies a diagnosis: it changes with step, model, data, parameters, catalogue and settings."""
     model = hashlib.sha256(session.model.path.read_bytes()).hexdigest()
     data = session.dataset
     measured = digest((data.signals, data.records, tuple(sorted(session.data.overrides.items()))))

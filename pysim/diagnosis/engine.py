@@ -1,4 +1,4 @@
-"""The steps of a diagnosis in a row, and each of them alone."""
+"""Entry points of the diagnosis: the whole search, and each of its steps alone."""
 
 from __future__ import annotations
 
@@ -29,11 +29,11 @@ from pysim.identify.greybox import Simulation
 from pysim.types import BadInput, Effect, NextTest, Note, NoteCode
 from pysim.types.answer import PRIOR, REFIT, Diagnosis, ErrorStep, Left
 
-Named = Sequence[tuple[str, FinalFit]]  # models of the error history, by the names of their steps
+Named = Sequence[tuple[str, FinalFit]]  # steps of the error history: name and model
 
 
 class Learns(Enum):
-    """When a law is looked for that no catalogue has."""
+    """When to learn a law that no catalogue has."""
 
     NEVER = "never"
     IF_MISSING = "if more is missing"
@@ -41,11 +41,11 @@ class Learns(Enum):
 
 
 def diagnose(session: Session, *, progress: Say | None = None, checkpoint: Path | None = None) -> Diagnosis:
-    """Answer which effects the data demand, in order, that they demand none, or that what is missing is not known.
+    """Find the effects that the data demand, in order; the verdict may also be that none is missing, or `unknown`.
 
     Args:
-        progress: gets what is being done and what was learned; what it raises ends the diagnosis.
-        checkpoint: file that a diagnosis which was stopped goes on from.
+        progress: called with each ProgressEvent; an exception that it raises ends the diagnosis.
+        checkpoint: file of finished refits, from which a stopped diagnosis goes on.
     Raises:
         BadInput: the base model cannot be simulated at its own parameters.
     """
@@ -61,12 +61,12 @@ def diagnose(session: Session, *, progress: Say | None = None, checkpoint: Path 
 def learn(
     session: Session, effects: Sequence[Effect] = (), *, progress: Say | None = None, checkpoint: Path | None = None
 ) -> Diagnosis:
-    """Where a law is missing that no catalogue has, and what it looks like: the best law of each place.
+    """Learn a law that the model lacks and no catalogue has: for each place in the model the curve that fits best.
 
-    Of a model whose class is not at hand the places are its inputs and outputs, and no law is added.
+    If the model's Modelica class is not available, the places are its inputs and outputs, and no law is added.
 
     Args:
-        effects: that the model has besides.
+        effects: added to the model before the law is learned.
     Raises:
         BadInput: an effect cannot be built or simulated.
     """
@@ -92,10 +92,10 @@ def learn(
 def compare(
     session: Session, *, refitted: bool = True, progress: Say | None = None, checkpoint: Path | None = None
 ) -> Diagnosis:
-    """Hold the model against the measurements, as it is and refitted.
+    """Compare the measurements with the nominal model, and with the model once its parameters are refitted.
 
     Args:
-        refitted: without, the model is only compared as it is.
+        refitted: False compares the nominal model alone.
     """
     search = _search(session, progress, checkpoint, "compare")
     base = search.fit_base() if refitted else search.as_it_is()
@@ -104,10 +104,10 @@ def compare(
 
 
 def rank(session: Session, *, progress: Say | None = None, checkpoint: Path | None = None) -> Diagnosis:
-    """What each effect would gain beside the refitted base model; nothing is added.
+    """Rank the effects by what each of them gains when it is added to the refitted base model; none is kept.
 
     Raises:
-        BadInput: the model's class is not at hand.
+        BadInput: the model's Modelica class is not available.
     """
     _needs_class(session)
     search = _search(session, progress, checkpoint, "rank")
@@ -120,10 +120,10 @@ def rank(session: Session, *, progress: Say | None = None, checkpoint: Path | No
 def add(
     session: Session, effects: Sequence[Effect], *, progress: Say | None = None, checkpoint: Path | None = None
 ) -> Diagnosis:
-    """Add given effects one after the other and refit everything each time.
+    """Add the given effects one after the other, and refit all parameters each time.
 
     Raises:
-        BadInput: the model's class is not at hand, or one cannot be built or simulated.
+        BadInput: the model's Modelica class is not available, or an effect cannot be compiled or simulated.
     """
     _needs_class(session)
     search = _search(session, progress, checkpoint, "add")
@@ -151,7 +151,7 @@ def _search(session: Session, progress: Say | None, checkpoint: Path | None, ste
 
 @dataclass(frozen=True)
 class _Account:
-    """A chain of models beside the measurements, and what is left of these after the last one."""
+    """The error history of a sequence of models, and what the last of them leaves of the measurements."""
 
     history: tuple[ErrorStep, ...]
     notes: tuple[Note, ...]
@@ -180,11 +180,11 @@ def _answer(
     models: Sequence[FinalFit] = (),
     learns: Learns = Learns.NEVER,
 ) -> Diagnosis:
-    """Everything that was found.
+    """Assemble the answer: learn a law if asked for, then compute the error history, the intervals and the verdict.
 
     Args:
-        models: with effects, in the order they came in; those of the search where none are given.
-        learns: whether a law is looked for: where more is missing, or always.
+        models: models of the error history, one per added effect; the search's own steps if empty.
+        learns: when to learn a law beside the final model.
     """
     search.say.doing("counting what is left")
     final = _alone(found.final, search) if found.final.names else found.final
@@ -199,7 +199,7 @@ def _answer(
     wanted &= session.build_law is not None
     learning = _learned(session, search, found) if wanted and not final.candidate.has_events else None
     if learning is not None and learning.law is not None:
-        law, complete = learning.law, False  # what the law is has no name yet
+        law, complete = learning.law, False  # nobody has named the law's cause yet
         found, named = _with_law(found, named, law)
         account = _account(session, found, named, finest(search.fine, law.fit.simulation))
         estimates = law.of_the_model(account.history[-1].estimates)
@@ -233,7 +233,7 @@ def _answer(
 
 
 def _with_law(found: Found, models: Named, law: LawFit) -> tuple[Found, Named]:
-    """With a law in place of what it made needless."""
+    """Result and history with a learned law as the last model, without the effects that the law made needless."""
     kept = set(law.fit.candidate.labels)
     losses = {label: loss for label, loss in found.losses.items() if label in kept}
     beside = [(name, fit) for name, fit in models if kept.issuperset(fit.candidate.labels)]
@@ -242,8 +242,8 @@ def _with_law(found: Found, models: Named, law: LawFit) -> tuple[Found, Named]:
 
 
 def _learned(session: Session, search: Search, found: Found) -> Learning:
-    """The best law beside the final model; beside the base model first where effects take so little that a law which
-    is worth a name would unseat them all."""
+    """Learn the best law beside the final model, and drop the effects that it makes needless ("unseats").
+    If the effects explain less than a law must to unseat them, a law beside the base model is tried first."""
     floors, settings = found.floors, LearnSettings()
     base, final = floors.avoidable(found.base), floors.avoidable(found.final)
     hardly = found.final is not found.base and base - final < settings.unseats * base
@@ -271,7 +271,7 @@ def _learned(session: Session, search: Search, found: Found) -> Learning:
 
 
 def _next_test(session: Session, found: Found) -> tuple[NextTest | None, list[Note]]:
-    """That would tell the last effect from the best of those that these data do not tell from it, or why not."""
+    """A test that would separate the last effect from the first rival tied with it, or a note why there is none."""
     step = found.steps[-1] if found.steps else None
     if step is None or step.added not in found.losses or not step.rivals[0].ties:
         return None, []
@@ -283,9 +283,9 @@ def _next_test(session: Session, found: Found) -> tuple[NextTest | None, list[No
 
 
 def _alone(fit: FinalFit, search: Search, *, transient: bool = False) -> FinalFit:
-    """The model with its effects and no others, refitted to the end from where it stands; slopes as they are there.
+    """The model compiled with its own effects only, in their true form, and refitted to the end from the fit's values.
 
-    By ten times finer runs where the search had other forms of its laws.
+    If this form differs from the search's, runs are ten times finer. Returns `fit` if it does not compile or run.
     """
     try:
         candidate = search.models.alone(fit.candidate.effects, fit.candidate.nuisances, transient=transient)
@@ -299,7 +299,7 @@ def _alone(fit: FinalFit, search: Search, *, transient: bool = False) -> FinalFi
 
 
 def _kept(found: Found, models: Sequence[FinalFit], final: FinalFit, search: Search) -> Named:
-    """Names and models of the steps of the error history; effects that came in together are one step."""
+    """Steps of the error history beyond the base model; effects that are significant only together share a step."""
     if models:
         return [(fit.names[-1], final if fit is models[-1] else _alone(fit, search)) for fit in models]
     kept, steps, waiting = set(final.candidate.labels), list[tuple[str, FinalFit]](), list[str]()

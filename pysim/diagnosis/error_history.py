@@ -1,4 +1,4 @@
-"""The error history: a model beside every record, counted in the floors that all models share."""
+"""The error history: residuals of each model on every log, over the noise floors that all models share."""
 
 from __future__ import annotations
 
@@ -30,12 +30,12 @@ def error_step(
     *,
     fitted: bool = True,
 ) -> tuple[ErrorStep, tuple[Note, ...]]:
-    """One model beside every record, those of use "test" too; and what could not be simulated.
+    """Errors and estimates of one model on every log, the held-out ones too; with notes on logs that did not run.
 
     Args:
-        floors: what the errors are counted in.
-        simulation: as fine as errors need; parameters may have been found by a finer one.
-        fitted: whether the model was fitted; the untouched one has no intervals.
+        floors: noise floor of each channel (data set and signal), the unit of all errors.
+        simulation: solver settings of the runs; those of the fit itself may be finer.
+        fitted: whether the model was fitted; the nominal model has no intervals.
     """
     parts = [beside(fit, simulation)]
     if session.unseen is not None:
@@ -67,9 +67,9 @@ def error_step(
 
 
 def held_still(fit: FinalFit) -> tuple[tuple[Estimate, ...], tuple[Direction, ...]]:
-    """Estimates with one parameter of each exactly undetermined direction held where it stands, and those directions.
+    """Estimates with one parameter held of each direction that the data leave exactly undetermined; these directions.
 
-    A direction that scales every force leaves no force an interval of its own, though an effect is there for certain.
+    If all forces may be scaled together, no force has a finite interval until one is held, even a certain friction.
     """
     space, point, held = fit.candidate.space, fit.point, []
     found, slopes = uncertainty(space, point), point.jacobian.copy()
@@ -86,13 +86,13 @@ def held_still(fit: FinalFit) -> tuple[tuple[Estimate, ...], tuple[Direction, ..
 
 
 def root_mean_square(records: Sequence[RecordFit], use: str) -> float | None:
-    """Of all samples over their floors, of records of one use; None where there are none."""
+    """Root mean square of all residuals over their floors, of the records of one use; None if there are none."""
     values = [record.residual.values.ravel() for record in records if record.use == use]
     return float(np.sqrt(np.mean(np.concatenate(values) ** 2))) if values else None
 
 
 def beside(fit: FinalFit, simulation: Simulation) -> Compared:
-    """The model beside every record that is fitted or may choose."""
+    """The model compared with every log that is fitted or used to choose (validation data)."""
     residuals = fit.candidate.residuals(simulation)
     carried = dict(zip(map(id, residuals.runs), fit.point.carried.states, strict=False))
     return compared(fit.candidate.problem, fit.point.x, simulation, carried, errors=fit.sensor_errors)

@@ -1,4 +1,4 @@
-"""Where a model fails: by record, frequency, offset, amplitude, window, and range of each signal and its rate."""
+"""Where a model fails: residuals by log, frequency, offset, amplitude, time window, and range of signals and rates."""
 
 from __future__ import annotations
 
@@ -16,24 +16,24 @@ from pysim.types.answer import Failure
 
 Array = NDArray[np.float64]
 
-# What stands for a record where a region gathers several.
+# Stands for the record's name where a region gathers several records.
 ALL_SINES, ALL_LOGS = "all stepped sines", "all logs over time"
-_WINDOWS = 6  # of a log over time
-_BANDS = 10  # of a log's spectrum, at most
-_LINES = 8  # of the spectrum in a band, at least: fewer, and chance would lead the list
-_RANGES = 5  # of a signal
+_WINDOWS = 6  # time windows of a log
+_BANDS = 10  # frequency bands of a log's spectrum, at most
+_LINES = 8  # lines of the spectrum in a band, at least; with fewer, chance would lead the list
+_RANGES = 5  # ranges of a signal, with equally many samples
 
 
 def failures(records: Sequence[RecordFit], dataset: Dataset | None = None) -> tuple[Failure, ...]:
-    """Root-mean-square residual over noise by region, the worst first; 1 is noise alone.
+    """Root mean square residual by region, in standard deviations of the noise, the worst region first.
 
-    Stepped sines count one by one and together by frequency, offset and amplitude; other logs by time window, by
-    frequency band, and by a tone that stands alone; all of them together by the range of each signal, and of its rate,
-    as the model has it.
+    Stepped sines count one by one, and together by frequency, offset and amplitude. Other logs count by time window,
+    by frequency band and by a lone tone, and together by the range of each simulated signal and of its rate. If all
+    logs are stepped sines, the ranges are of these.
 
     Args:
-        records: a model beside its logs.
-        dataset: tells offset and amplitude of the stepped sines.
+        records: logs and a model's residuals.
+        dataset: gives offset and amplitude of the stepped sines.
     """
     rows = [row for record in records for row in _own(record)]
     rows += _together(records, {r.source: r for r in dataset.records} if dataset else {})
@@ -42,7 +42,7 @@ def failures(records: Sequence[RecordFit], dataset: Dataset | None = None) -> tu
 
 
 def _own(record: RecordFit) -> Iterator[Failure]:
-    """A stepped sine by its frequency, another log by window and by frequency band."""
+    """Regions of one record: the frequency of a stepped sine; time windows, frequency bands and a tone of a log."""
     residual = record.residual
     for j, signal in enumerate(residual.names):
         values = residual.values[:, j]
@@ -64,7 +64,7 @@ def _own(record: RecordFit) -> Iterator[Failure]:
 
 
 def bands(frequency: Array) -> Iterator[slice]:
-    """Stretches of an even axis (n_f,) that widen like its logarithm, each of several lines."""
+    """Bands of a frequency axis (n_f,) in equal steps, equally wide in its logarithm, of _LINES lines or more."""
     edges = np.geomspace(1, frequency.size + 1, _BANDS + 1)
     start = 0
     for edge in edges[1:]:
@@ -75,7 +75,7 @@ def bands(frequency: Array) -> Iterator[slice]:
 
 
 def _together(records: Sequence[RecordFit], tests: dict[str, MeasuredRecord]) -> Iterator[Failure]:
-    """Stepped sines by what they have in common."""
+    """Regions of several stepped sines: by frequency, offset and amplitude, as far as these differ."""
     sines = [record for record in records if record.harmonics]
     ways: list[tuple[str, Callable[[RecordFit], float | None]]] = [
         ("frequency {:g} Hz", lambda r: r.harmonics[0].frequency),
@@ -95,7 +95,7 @@ def _together(records: Sequence[RecordFit], tests: dict[str, MeasuredRecord]) ->
 
 
 def _ranges(records: Sequence[RecordFit]) -> Iterator[Failure]:
-    """Residuals of a signal by its own size and rate in the model, in fifths of the samples."""
+    """Regions of a signal: its samples sorted by the simulated value, and by its rate, in fifths."""
     logs = [record for record in records if not record.harmonics] or list(records)
     where = ALL_LOGS if not logs or not logs[0].harmonics else ALL_SINES
     for name, unit in dict.fromkeys(
@@ -114,13 +114,13 @@ def _ranges(records: Sequence[RecordFit]) -> Iterator[Failure]:
 
 
 def _three_digits(value: float) -> str:
-    """Large ones without an exponent: -1350 and not -1.35e+03."""
+    """Three digits, large numbers without an exponent: -1350 and not -1.35e+03."""
     text = f"{value:.3g}"
     return f"{float(text):.0f}" if "e+" in text else text
 
 
 def _rate(record: RecordFit, column: int) -> Array:
-    """Of the simulated signal, (n_t,)."""
+    """Time derivative of a simulated signal, (n_t,)."""
     values = record.simulated.values[:, column]
     return np.asarray(np.gradient(values, record.simulated.time)) if values.size > 1 else np.zeros_like(values)
 

@@ -1,4 +1,4 @@
-"""What a model leaves: how large it is over the floor, and whether it follows the model's own signals.
+"""What a model leaves: the residual's size over the noise floor, and whether the model's own signals predict it.
 
 Source: Ljung 1999, Lecture Notes in Control and Information Sciences 245:97 (the model-error model).
 """
@@ -21,8 +21,8 @@ from pysim.types.answer import FloorSource, NoiseFloor
 
 Array = NDArray[np.float64]
 
-# Of the regression: samples by which signals are shifted, penalties that are tried, over the mean information of a
-# regressor, and samples that a regressor needs.
+# Of the regression: lags of the signals in samples, ridge penalties over the information of a block on a regressor,
+# and the fewest samples per regressor.
 _LAGS = (0, 1, 2, 4, 8, 16, 32, 64)
 _RIDGES = (1e-3, 1e-2, 1e-1, 1.0, 10.0)
 _SAMPLES = 30
@@ -30,11 +30,11 @@ _SAMPLES = 30
 
 @dataclass(frozen=True)
 class Follows:
-    """How far a residual follows the model's own signals.
+    """How far the model's own signals predict a residual.
 
     Args:
-        share: of its sum of squares that a regression explains on blocks it did not see, 0 ... 1.
-        t: of that share over blocks.
+        share: of the residual's sum of squares that a regression predicts on blocks left out, 0 ... 1.
+        t: t statistic of that share, from its scatter over the blocks.
     """
 
     share: float
@@ -43,16 +43,16 @@ class Follows:
 
 @dataclass(frozen=True)
 class Floors:
-    """The noise of each channel, as the models so far tell.
+    """The noise floor of each channel (data set and signal), as far as the models so far show it.
 
     Args:
-        floors: channel -> the least level that any model's residual shows, or what is specified where that is larger.
+        floors: channel -> the least white-noise level in any model's residual; the specified noise if that is larger.
     """
 
     floors: Mapping[Channel, NoiseFloor] = field(default_factory=dict)
 
     def with_(self, fit: FinalFit) -> Floors:
-        """As another model tells."""
+        """The floors with another model's residual: the lower one for each channel."""
         found = dict(self.floors)
         for channel, floor in white_floors(fit).items():
             if channel not in found or floor.sd < found[channel].sd:
@@ -71,25 +71,25 @@ class Floors:
         return {c: float(size) / self.floors[c].sd for c, size in zip(residuals.channels, sizes, strict=True)}
 
     def whole(self, fit: FinalFit) -> float:
-        """Root mean square of all that is fitted, over the floors."""
+        """Root mean square residual over the floors, of all fitted channels together."""
         residuals = fit.candidate.residuals(fit.simulation)
         counts = dict(zip(residuals.channels, residuals.samples.tolist(), strict=True))
         total = sum(counts[channel] * ratio**2 for channel, ratio in self.over(fit).items())
         return math.sqrt(total / max(sum(counts.values()), 1.0))
 
     def rows(self, fit: FinalFit) -> Array:
-        """(n_r,) the floor of each row of the measurements."""
+        """(n_r,) noise floor of each measured row."""
         series = fit.candidate.residuals(fit.simulation).series
         sizes = [1.0 if name is None else self.floors[one.dataset, name].sd for one, name in series]
         return np.array(sizes)[of(fit).series]
 
     def between(self, fit: FinalFit, other: FinalFit) -> float:
-        """Root mean square difference of two runs of one model, over the floors."""
+        """Root mean square difference over the floors of the residuals of two simulations of one model."""
         return float(np.sqrt(np.mean(((of(fit).residual - of(other).residual) / self.rows(fit)) ** 2)))
 
     def roughest(self, fit: FinalFit, error: float) -> FinalFit:
-        """The model by the roughest runs that differ from its own by less than this: costs of rougher ones jump by more
-        than a law or an effect gains."""
+        """The fit simulated with the largest tolerance that changes its residual by less than `error` floors.
+        With a larger one, the cost would jump between iterations by more than an effect or a law gains."""
         simulation = fit.simulation.rough()
         while simulation.solver.rtol > fit.simulation.solver.rtol:
             rough = begin(fit.candidate, fit.values, simulation, fit)
@@ -99,24 +99,24 @@ class Floors:
         return fit
 
     def within(self, fit: FinalFit, factor: float) -> bool:
-        """Whether every residual is within a factor of its floor."""
+        """Whether the root mean square residual of every channel is below `factor` times its floor."""
         return all(ratio < factor for ratio in self.over(fit).values())
 
     def avoidable(self, fit: FinalFit) -> float:
-        """Sum of squares beyond the floors, over their variance."""
+        """Avoidable sum of squares: what the residuals have beyond the noise floors, over the floors' variances."""
         samples = fit.candidate.residuals(fit.simulation).samples
         squares = np.square(list(self.over(fit).values()))
         return float(np.sum(samples * np.maximum(squares - 1.0, 0.0)))
 
     def potential(self, fit: FinalFit) -> float:
-        """Nats that a model which left nothing but the floor would gain."""
+        """Nats (log-likelihood) by which a model that left only the noise floors would be better."""
         residuals = fit.candidate.residuals(fit.simulation)
         counts = dict(zip(residuals.channels, residuals.samples.tolist(), strict=True))
         return sum(counts[c] * math.log(max(ratio, 1.0)) for c, ratio in self.over(fit).items())
 
 
 def white_floors(fit: FinalFit) -> dict[Channel, NoiseFloor]:
-    """The white part of what a model leaves, of each channel, never below the least level it can have."""
+    """White-noise level of a model's residual in each channel, never below the channel's specified or least level."""
     residuals = fit.candidate.residuals(fit.simulation)
     problem, found = fit.candidate.problem, dict[Channel, NoiseFloor]()
     parts = _columns(fit)
@@ -140,13 +140,13 @@ def white_floors(fit: FinalFit) -> dict[Channel, NoiseFloor]:
 
 
 def follows(fit: FinalFit, dataset: Dataset, blocks: int) -> Follows | None:
-    """Whether the residual of logs over time depends on the model's own inputs and outputs.
+    """Regress the residuals of logs over time on the model's own inputs and outputs (model-error model).
 
     Args:
-        dataset: that was fitted, with its inputs.
-        blocks: contiguous pieces over which the regression is cross-validated.
+        dataset: the fitted data set, with its inputs.
+        blocks: number of contiguous pieces over which the regression is cross-validated.
     Returns:
-        the strongest of all channels; None where there are too few samples to say.
+        the channel with the largest t; None where all have too few samples.
     """
     tables = list(_regressors(fit, dataset))
     if not tables:
@@ -175,7 +175,7 @@ def logs(fit: FinalFit) -> Iterator[tuple[str, dict[Channel, Array]]]:
 
 
 def _regressors(fit: FinalFit, dataset: Dataset) -> Iterator[tuple[Array, dict[Channel, Array]]]:
-    """Per log what its residuals may follow (n_t, m), and the residuals; of signals, those that every log has."""
+    """Per log the regressors (n_t, m), made of signals that every log has, and the residuals by channel."""
     records = {record.source: record.data for record in dataset.records}
     found = []
     for source, rests in logs(fit):
@@ -197,7 +197,7 @@ def _regressors(fit: FinalFit, dataset: Dataset) -> Iterator[tuple[Array, dict[C
 
 
 def _features(signals: Array, lags: Sequence[int]) -> Array:
-    """Lagged, squared, absolute and signed copies of scaled signals (n_t, k)."""
+    """Regressors (n_t, m): lagged, squared, absolute and signed copies of scaled signals (n_t, k), and their rates."""
     n = len(signals)
     parts = [np.ones((n, 1))]
     parts += [np.vstack([np.repeat(signals[:1], lag, axis=0), signals[: n - lag]]) for lag in lags]
@@ -210,7 +210,7 @@ def _features(signals: Array, lags: Sequence[int]) -> Array:
 
 
 def _regression(tables: list[tuple[Array, dict[Channel, Array]]], channel: Channel, count: int) -> Follows | None:
-    """Ridge regression of one channel's residual, its penalty chosen and its gain counted over blocks left out."""
+    """Ridge regression of one channel's residual; penalty and gain come from cross-validation over blocks."""
     own = [(table, rests[channel]) for table, rests in tables if channel in rests]
     table = np.concatenate([rows for rows, _ in own])
     rest = np.concatenate([values for _, values in own])
