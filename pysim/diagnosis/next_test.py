@@ -1,9 +1,9 @@
-"""The experiment that would tell two explanations apart.
+"""Design of the next experiment: tests that separate two models which explain the present data equally well.
 
-Each model in turn is taken for the truth, and the other is refitted, to first order, to the data at hand and to the new
-test together; the smaller of the two misfits that remain is the gain.
+Each model in turn is taken as the truth. The other one is refitted, to first order, to the present data and the new
+test together. The gain of the test is the smaller one of the two sums of squares that remain.
 
-Source: Atkinson and Fedorov 1975, Biometrika 62:57 (T-optimality), with the information of the data at hand.
+Source: Atkinson and Fedorov 1975, Biometrika 62:57 (T-optimality), with the information of the present data added.
 """
 
 from __future__ import annotations
@@ -31,28 +31,28 @@ Array = NDArray[np.float64]
 Signals = Sequence[MeasuredSignal]
 Tests = Sequence[CandidateTest]
 Plan = Sequence[tuple[int, int]]  # number of a test, and how often it is run
-# Per test, by signal: products of the difference of the two models over noise (first) and of the second model's slopes,
-# (1 + n, 1 + n), and the same with the slopes of the first model. Nothing for a test that cannot be simulated.
+# Per test: signal -> Gram matrix (1 + n, 1 + n) of the difference of the two models and of the second model's Jacobian,
+# both over the noise; and the same with the first model's Jacobian. Empty for a test that cannot be simulated.
 Table = Sequence[Mapping[str, tuple[Array, Array]]]
 
-# Relative tolerances: of a look ahead, and of what is compared, whose errors would count as evidence otherwise.
+# Relative tolerances of preliminary runs, and of runs that are compared, whose errors must not count as evidence.
 _COARSE, _FINE = 1e-5, 1e-6
-# Units of numbers within a controller or a block, where nothing stands that a sensor could be put to.
+# Units of states that no sensor can measure, such as those of a controller.
 _WITHIN = ("", "1", "%", "%/s")
 
 
 def next_test(
     session: Session, one: FinalFit, other: FinalFit, settings: TestSettings | None = None
 ) -> NextTest | None:
-    """The shortest set of tests that is expected to separate two refitted models; None where none would.
+    """A short set of tests that is expected to separate two refitted models; None if no set does.
 
-    Signals that are logged already are preferred; one more is asked for where they are not enough, an output of the
-    model rather than a state. Noise is as large as what the better of the two models leaves, and as coloured.
+    The signals logged so far are preferred. If they are not enough, one more is asked for, an output of the model
+    rather than a state. Size and autocorrelation of the noise are those of what the better model leaves.
 
     Args:
-        one, other: with slopes that are exact at their points.
+        one, other: refitted models, with exact Jacobians at their best points.
     Raises:
-        BadInput: no output that was fitted over time, other than one command, or one that never moves.
+        BadInput: no output was fitted over time, there is not exactly one command, or the command never moves.
     """
     settings = settings or TestSettings()
     settings = replace(settings, enough=_colour(one, other) * settings.enough)
@@ -79,7 +79,7 @@ def next_test(
 
 
 def _levels(*fits: FinalFit) -> dict[str, float]:
-    """Level of the residual of each output, in its unit: the smallest that a model reaches."""
+    """Output -> standard deviation of its residual in its unit, the smallest one of the models."""
     found: dict[str, float] = {}
     for fit in fits:
         channels = fit.candidate.residuals(fit.simulation).channels
@@ -89,20 +89,20 @@ def _levels(*fits: FinalFit) -> dict[str, float]:
 
 
 def _logged(session: Session, level: Mapping[str, float]) -> tuple[MeasuredSignal, ...]:
-    """Compared outputs, with the noise that is specified; else with what a model leaves beside rounding."""
+    """Compared outputs with their noise: as specified, or else the residual's standard deviation less rounding."""
     found = [signal for signal in session.dataset.signals if signal.name in level]
     seen = [math.sqrt(max(level[s.name] ** 2 - s.deviation**2, 0.0)) if s.noise is None else s.noise for s in found]
     return tuple(replace(signal, noise=noise) for signal, noise in zip(found, seen, strict=True))
 
 
 def _colour(one: FinalFit, other: FinalFit) -> float:
-    """lambda of the data at hand: by how much more than white noise the new residuals will scatter."""
+    """lambda of the present data, by which colour inflates the variance of a gain; expected of the new test too."""
     own, its = rivals.of(one), rivals.of(other)
     return rivals.effective(own, its.residual - own.residual) if np.array_equal(own.series, its.series) else 1.0
 
 
 def _known(fit: FinalFit) -> Array:
-    """(n, n) information of the data at hand on the parameters, and of priors alone on the sensors' errors."""
+    """(n, n) information matrix: of the present data on the parameters, of the priors alone on the sensor errors."""
     n, size = fit.point.x.size, fit.candidate.size
     whole = np.diag([0.0] * n + [one.prior_sd**-2 for one in fit.candidate.nuisances]).reshape(size, size)
     whole[:n, :n] = fit.point.jacobian.T @ fit.point.jacobian
@@ -114,7 +114,7 @@ def _overrides(session: Session, fit: FinalFit) -> dict[str, float]:
 
 
 def _settled(session: Session, fit: FinalFit, signals: Signals, run: Experiment, still: float) -> float:
-    """When all signals stay within that share of their noise of where they end, s; the end where that is unknown."""
+    """Time in s after which all signals are within `still` times their noise of their ends; the last one on failure."""
     if not signals:
         raise BadInput("a next test needs an output in a log over time to go by; log one")
     asked = replace(run, record=tuple(s.variable for s in signals), overrides=_overrides(session, fit))
@@ -129,9 +129,9 @@ def _settled(session: Session, fit: FinalFit, signals: Signals, run: Experiment,
 def loggable(
     session: Session, one: FinalFit, other: FinalFit, tests: Tests, settings: TestSettings
 ) -> tuple[tuple[MeasuredSignal, ...], tuple[MeasuredSignal, ...]]:
-    """Outputs, and states in physical units, that all models have and that move; their noise a share of their range.
+    """Outputs, and states in physical units, that could be logged too: both models have them, and they move.
 
-    It is errors of the integration at least, which would count as evidence otherwise.
+    Their noise is taken as a share of their range, and well above the integration error, which is no evidence.
     """
     model, known = session.model, {signal.variable for signal in session.dataset.signals}
     shared = {v.name for v in one.candidate.model.variables} & {v.name for v in other.candidate.model.variables}
@@ -160,7 +160,7 @@ def loggable(
 def _table(
     session: Session, fits: tuple[FinalFit, FinalFit], tests: Tests, signals: Signals, noise: Mapping[str, float]
 ) -> Table:
-    """Test by test what each signal says."""
+    """The Gram matrices of each test and signal, see Table."""
     table: list[dict[str, tuple[Array, Array]]] = []
     read = [_readings(session, fit, tests, signals) for fit in fits]
     for test, first, second in zip(tests, *read, strict=True):
@@ -176,7 +176,7 @@ def _table(
 
 
 def _readings(session: Session, fit: FinalFit, tests: Tests, signals: Signals) -> list[Array | None]:
-    """Per test what the sensors would read, and its slopes by all that is free (n_t, n_y, 1 + n); None without."""
+    """Per test the simulated readings and their derivatives by all free numbers (n_t, n_y, 1 + n); None if it fails."""
     candidate, simulation = fit.candidate, Simulation(Esdirk(_FINE, _FINE), workers=session.workers)
     variables, overrides = tuple(s.variable for s in signals), dict(session.data.overrides)
     runs = [Run(str(k), t.experiment(candidate.model, variables, overrides)) for k, t in enumerate(tests)]
@@ -200,11 +200,11 @@ def _readings(session: Session, fit: FinalFit, tests: Tests, signals: Signals) -
 
 
 def remaining(products: Array, known: Array) -> float:
-    """Squared misfit that is left once a model is refitted to a difference and to old data.
+    """Sum of squares over the noise that is left once a model is refitted, linearly, to the new and the present data.
 
     Args:
-        products: (1 + n, 1 + n) of the difference over noise, first, and of the model's slopes.
-        known: (n, n) information of the old data.
+        products: (1 + n, 1 + n) Gram matrix of the models' difference, first, and of the model's Jacobian.
+        known: (n, n) information of the present data.
     """
     slope = products[1:, 0]
     return float(products[0, 0] - slope @ np.linalg.lstsq(known + products[1:, 1:], slope, rcond=1e-12)[0])
@@ -213,13 +213,13 @@ def remaining(products: Array, known: Array) -> float:
 def cheapest(
     seconds: Sequence[float], table: Table, names: Sequence[str], known: tuple[Array, Array], settings: TestSettings
 ) -> tuple[float, Plan]:
-    """Tests, each the best for its time on the bench, until together they are enough; and what they gain.
+    """Gain and plan of a greedy choice: add the test with the largest gain per bench time until they are enough.
 
     Args:
-        seconds: of each test.
-        table: what each test says.
+        seconds: bench time of each test.
+        table: Gram matrices of each test.
         names: of the signals that are logged.
-        known: information of the data at hand on the second model (n, n), and on the first.
+        known: information (n, n) of the present data on the second model, and on the first.
     """
     total = [np.zeros((len(own) + 1, len(own) + 1)) for own in known]
     gain, chosen = 0.0, dict[int, int]()
@@ -241,7 +241,7 @@ def cheapest(
 
 
 def _described(session: Session, fits: Sequence[FinalFit], tests: Tests, signals: Signals, gain: float) -> NextTest:
-    """What to run and to log, and that as a test plan."""
+    """The answer: tests to run, signals to log, and the same as the text of a test plan."""
     one, other = (" + ".join(fit.names) or "none" for fit in fits)
     have = {signal.name for signal in session.dataset.signals}
     return NextTest(

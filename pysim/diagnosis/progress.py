@@ -1,4 +1,4 @@
-"""What a diagnosis says while it works, and how long its stages took."""
+"""Progress of a diagnosis: events while it works, and the time that its stages took."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ Say = Callable[[ProgressEvent], None]
 
 @dataclass
 class Progress:
-    """Where the diagnosis stands.
+    """Reports what the diagnosis does.
 
     Args:
-        tell: gets it; what it raises ends the diagnosis.
-        seconds: wall time by stage.
+        tell: called with each event; an exception that it raises ends the diagnosis.
+        seconds: stage -> wall time.
     """
 
     tell: Say
@@ -27,16 +27,16 @@ class Progress:
     since: float = field(default_factory=time.monotonic)
 
     def doing(self, what: str) -> None:
-        """A new stage begins, in a few words."""
+        """A new activity begins, which `what` names in a few words."""
         self.now = what
         self.tell(ProgressEvent(what))
 
     def tried(self, trial: Trial) -> None:
-        """A point of a search."""
+        """A search has evaluated a point."""
         self.tell(ProgressEvent(self.now, trial=trial))
 
     def learned(self, model: FinalFit, test: GainTest) -> None:
-        """A model was kept for now."""
+        """The search has taken a larger model, at least on trial."""
         name = " + ".join(model.names) or "the base model"
         self.tell(ProgressEvent(self.now, f"{name}: gains {test.gain:.4g} nats (p = {test.p_value:.2g})"))
 
@@ -45,7 +45,7 @@ class Progress:
         self.tell(ProgressEvent(self.now, text, step))
 
     def stage(self, name: str) -> None:
-        """A stage of that name has ended."""
+        """A stage of that name has ended; the time since the last stage ended is added to it."""
         now = time.monotonic()
         self.seconds[name] = self.seconds.get(name, 0.0) + now - self.since
         self.since = now

@@ -1,4 +1,7 @@
-"""Refits of candidates: a few points each, then the promising ones to the end."""
+"""Refits of candidates: a few iterations each, then the promising ones to convergence.
+
+A point is one evaluation of the objective by the optimiser. Costs are negative log-likelihoods, in nats.
+"""
 
 from __future__ import annotations
 
@@ -24,20 +27,18 @@ from pysim.types import FitOutcome
 
 Array = NDArray[np.float64]
 
-
-# A point (n,) and what goes along with it -> the objective there, with slopes.
+# Search variables (n,), initial states and sensor errors -> objective and Jacobian there.
 Evaluate = Callable[[Array, Carried], Point]
 
 
 @dataclass(frozen=True)
 class FinalFit:
-    """A candidate refitted, as far as it came.
+    """The refit of a candidate, ended or not.
 
     Args:
-        candidate: the model.
-        state: of the search: its best point, and how it ended.
-        simulation: what the point was simulated by.
-        evaluate: the objective at another point.
+        state: of the optimiser: its best point so far, and how the search ended.
+        simulation: solver settings of all runs.
+        evaluate: computes the objective at another point.
     """
 
     candidate: Candidate
@@ -47,7 +48,7 @@ class FinalFit:
 
     @property
     def point(self) -> Point:
-        """The best one."""
+        """The best point so far."""
         return self.state.best
 
     @property
@@ -57,17 +58,17 @@ class FinalFit:
 
     @property
     def ended(self) -> bool:
-        """Whether the search has come to an end of its own: only then the candidate counts as refitted."""
+        """Whether the search has converged; only then the candidate counts as refitted."""
         return self.state.outcome is FitOutcome.CONVERGED
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of what the base model lacks."""
+        """Names of the effects and sensor errors that were added to the base model."""
         return self.candidate.names
 
     @property
     def values(self) -> Values:
-        """The free parameters."""
+        """Key -> value of each free parameter at the best point."""
         return self.candidate.values(self.point.x)
 
     @property
@@ -76,8 +77,8 @@ class FinalFit:
         return tuple(zip(self.candidate.nuisances, self.point.carried.nuisances.tolist(), strict=True))
 
     def believable(self, label: str, settings: Settings) -> bool:
-        """Whether a label names an effect that would not end far beyond what its class calls plausible, or a sensor's
-        error within what its prior does."""
+        """Whether the size of an effect or sensor error is plausible: the strength of an effect does not press against
+        its bound, a sensor error is within `settings.believable` standard deviations of its prior."""
         own = [(e.name, p) for e in self.candidate.effects if e.name == label for p in e.strengths]
         if any(self._is_beyond((name, p.name), p.off or 0.0, settings.beyond) for name, p in own):
             return False
@@ -86,8 +87,8 @@ class FinalFit:
         return all(abs(size) <= settings.believable * error.prior_sd for name, (error, size) in sizes if name == label)
 
     def _is_beyond(self, key: Key, off: float, share: float) -> bool:
-        """Whether a strength is at its far bound, and would go on by more than a share of itself without it, to first
-        order."""
+        """Whether a strength is at the bound farthest from off and, without that bound, a Gauss-Newton step would
+        increase it by more than `share` of itself."""
         x, own = self.point.x, self.candidate.keys.index(key)
         size = float(x[own] - self.candidate.at({**self.values, key: off})[own])
         lower, upper = self.candidate.space.bounds()
@@ -101,16 +102,16 @@ class FinalFit:
 
     @property
     def expected(self) -> float:
-        """Cost that the search will end at, as far as a full step from here tells, nats."""
+        """Cost that a full Gauss-Newton step from here promises, nats; the cost itself once converged."""
         return self.point.cost - (self.state.memory.get("expected", 0.0) if not self.ended else 0.0)
 
 
 def begin(candidate: Candidate, values: Values, simulation: Simulation, present: FinalFit | None = None) -> FinalFit:
-    """The candidate at a start; not good where it could not be simulated there.
+    """The first state of a refit from given values; not `good` if the candidate cannot be simulated there.
 
     Args:
-        present: the model that it extends, compared in the same way: its initial states are the start's, and its slopes
-            the first ones of a model with events.
+        present: the model that the candidate extends. It gives the initial states of the logs, and the first Jacobian
+            of a candidate with events.
     """
     x = candidate.at(values)
     carried = Carried() if present is None else candidate.carried(present.candidate, present.point)
@@ -122,14 +123,14 @@ def begin(candidate: Candidate, values: Values, simulation: Simulation, present:
 
 
 def begin_anywhere(candidate: Candidate, simulation: Simulation) -> FinalFit:
-    """The candidate at its own values, or where a search on longer and longer stretches of its logs has come."""
+    """Begin at the candidate's own values, or where a search on longer and longer stretches of its logs has ended."""
     residuals = candidate.residuals(simulation)
     point = first_point(residuals, candidate.model, candidate.space, candidate.at({}))
     return begun(candidate, point, simulation, exact(candidate, simulation))
 
 
 def begun(candidate: Candidate, point: Point, simulation: Simulation, evaluate: Evaluate) -> FinalFit:
-    """The beginning of a search at a point; not good where the model could not be simulated there."""
+    """The first state of a search at a point that was evaluated already; not `good` if that failed."""
     if not point.good:
         return FinalFit(candidate, State(point, outcome=FitOutcome.NO_START), simulation, evaluate)
     bounds = _bounds(candidate)
@@ -138,7 +139,7 @@ def begun(candidate: Candidate, point: Point, simulation: Simulation, evaluate: 
 
 
 def cost_at(candidate: Candidate, values: Values, simulation: Simulation, present: FinalFit) -> float:
-    """Of a start that goes on from the present model, without slopes; infinite where it could not be simulated."""
+    """Cost in nats of starting values beside the present model, without a Jacobian; infinite if the run fails."""
     x, carried = candidate.at(values), candidate.carried(present.candidate, present.point)
     residuals = candidate.residuals(simulation)
     return residuals.evaluate(candidate.model, candidate.space, x, carried, jacobian=False, states=False).cost
@@ -147,14 +148,14 @@ def cost_at(candidate: Candidate, values: Values, simulation: Simulation, presen
 def again(
     candidate: Candidate, x: Array, carried: Carried, simulation: Simulation, outcome: FitOutcome | None, tried: int
 ) -> FinalFit:
-    """A refit as it ended before, simulated once where it did."""
+    """A refit that a checkpoint remembers, simulated once at its end."""
     evaluate = Secants(candidate, simulation, None).evaluate if candidate.has_events else exact(candidate, simulation)
     point = evaluate(x, carried)
     return FinalFit(candidate, State(point, tried, point.cost, outcome=outcome), simulation, evaluate)
 
 
 def exact(candidate: Candidate, simulation: Simulation) -> Evaluate:
-    """The objective with slopes that come along with the runs."""
+    """The objective with its Jacobian from the sensitivities that the runs compute along."""
     residuals = candidate.residuals(simulation)
 
     def evaluate(x: Array, carried: Carried) -> Point:
@@ -164,7 +165,7 @@ def exact(candidate: Candidate, simulation: Simulation) -> Evaluate:
 
 
 def advance(fit: FinalFit, points: int) -> FinalFit:
-    """So many points on, or to the end of the search."""
+    """Continue the refit by at most `points` iterations."""
     candidate, state, optimiser = fit.candidate, fit.state, _optimiser()
     bounds = _bounds(candidate)
     for _ in range(points):
@@ -179,14 +180,14 @@ def advance(fit: FinalFit, points: int) -> FinalFit:
 
 
 def _watched(fit: FinalFit) -> FinalFit:
-    """Shown to whoever watches the search."""
+    """Call the candidate's `watch` with the refit."""
     if fit.candidate.watch is not None:
         fit.candidate.watch(fit)
     return fit
 
 
 def _expecting(state: State, bounds: Bounds) -> State:
-    """With what a full step from there promises, nats."""
+    """The state with the gain that a full Gauss-Newton step promises, in nats, as `memory["expected"]`."""
     if state.outcome is not None:
         return state
     far = replace(state, memory={**state.memory, "radius": 1e6})
@@ -194,10 +195,10 @@ def _expecting(state: State, bounds: Bounds) -> State:
 
 
 def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
-    """The end of the search, by finer simulations where they are given.
+    """Run the search to its end, with finer simulations from there on if they are given.
 
-    Costs that jump, as those of a model with a memory do, shorten its steps until none is left: so it begins anew where
-    it ended, until that gains hardly more, or as many points were tried as a search may try.
+    A cost that jumps, as with hysteresis, shortens the steps until none is left. The search then restarts at its end,
+    until a restart gains less than `Settings.anew` or the iteration limit is reached.
     """
     most = _optimiser().max_iterations
     fit = advance(fit, most)
@@ -215,14 +216,14 @@ def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
 
 
 def finest(*simulations: Simulation) -> Simulation:
-    """The one of the smallest tolerance."""
+    """The simulation settings with the smallest tolerance."""
     return min(simulations, key=lambda one: one.solver.rtol)
 
 
 def integrated(fit: FinalFit, refinements: int) -> FinalFit:
-    """Gone on with by ten times finer integrations, until one gains no more than what ends a search.
+    """Continue a refit with ten times finer integration, until that gains less than the search's tolerance.
 
-    However small beside the noise, errors of the integration are the same in every sample, and so add up.
+    Integration errors are small beside the noise, but they are systematic, so that they add up over the samples.
     """
     for _ in range(refinements):
         start = begin(fit.candidate, fit.values, fit.simulation.finer(), fit)
@@ -235,10 +236,10 @@ def integrated(fit: FinalFit, refinements: int) -> FinalFit:
 
 
 def brought_near(fit: FinalFit, other: Point) -> Point:
-    """A point beside other measurements, to first order moved as near to them as the fit leaves its parameters open.
+    """A point on other measurements than the fitted ones, with the parameters moved within the fit's uncertainty.
 
-    What they cost besides is what the move costs the fit. Source: Rasmussen and Williams 2006, Gaussian Processes for
-    Machine Learning, Eq. 2.9: the predictive density, but for its normalisation.
+    To first order the move minimises the cost of both; what it costs the fit is added. Source: Rasmussen and Williams
+    2006, Gaussian Processes for Machine Learning, Eq. 2.9: the predictive density without its normalisation.
     """
     n, bounds = fit.point.x.size, _bounds(fit.candidate)
     own = np.column_stack([fit.point.triangle[:n, :n], np.zeros(min(n, len(fit.point.triangle)))])
@@ -252,14 +253,14 @@ def brought_near(fit: FinalFit, other: Point) -> Point:
 
 @dataclass(frozen=True)
 class Runner:
-    """A rival of a race.
+    """A candidate that competes in `race`.
 
     Args:
-        start: simulates it where its refit begins.
-        before: cost of the present model, compared as the rival is.
-        most: nats that it can gain; infinite where nobody knows.
-        beside: whether its start is known, as good as where the present model stands: slopes there say what it may
-            gain, within orders of magnitude.
+        start: returns the first state of its refit.
+        before: cost of the present model, simulated in the same way.
+        most: largest gain that is possible, nats; infinite if unknown.
+        beside: whether its start is already evaluated and as good as the present model's point. The Jacobian there
+            predicts its gain, within orders of magnitude.
     """
 
     start: Callable[[], FinalFit]
@@ -271,14 +272,13 @@ class Runner:
 def race(
     runners: Sequence[Runner], settings: Settings, finish: Callable[[FinalFit], FinalFit] = converged
 ) -> list[FinalFit]:
-    """Refits of rivals, the largest gain first: those that still promise enough go on, the best of them to the end.
+    """Refit rivals in rounds of a few iterations; drop those that promise too little; return the largest gain first.
 
-    One that can gain too little beside what others have gained does not start, or stays where it is. Of several starts
-    of one candidate the one that promises more goes on.
+    A rival that can gain too little beside the others does not start, or stays where it is. Of several starts of one
+    candidate the most promising goes on. The last `settings.finalists` are refitted to the end.
 
     Args:
         runners: the most promising first.
-        finish: takes one of the best to its end.
     """
     running, resting, gained = list[tuple[FinalFit, float]](), list[tuple[FinalFit, float]](), 0.0
     beside = [(runner.start(), runner.before) for runner in runners if runner.beside]
@@ -314,7 +314,7 @@ def race(
 
 
 def _promise(one: tuple[FinalFit, float]) -> float:
-    """Cost that a refit will end at over that of the present model, nats."""
+    """Expected final cost of a refit minus the cost of the present model, nats; negative for a gain."""
     return one[0].expected - one[1]
 
 

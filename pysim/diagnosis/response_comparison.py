@@ -1,4 +1,4 @@
-"""Hold a model against measured frequency responses (thesis Sections 2.1.1, 2.3 and 2.7)."""
+"""Compare a model with measured frequency responses (thesis Sections 2.1.1, 2.3 and 2.7)."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ from pysim.types import (
 )
 from pysim.types.record_kind import RESPONSE_TABLE
 
-# The stiff method takes long steps where nothing happens; at these tolerances the four numbers of the pump's tests are
+# A stiff solver takes long steps where nothing happens. At these tolerances the four deviations of the pump's tests are
 # within 0.002 dB and 0.01 degrees of those at 1e-8.
 SOLVER = Rodas(rtol=1e-5, atol=1e-5)
 
@@ -54,7 +54,7 @@ def compare_responses(
     workers: int | None = None,
     progress: Progress | None = None,
 ) -> Comparison:
-    """Repeat every measured stepped-sine test with the model, at the measured frequencies, and judge the difference.
+    """Repeat every measured stepped-sine test with the model, at the measured frequencies, and compare the responses.
 
     Args:
         model: has a variable for each signal of the measured responses, in the same unit. An input named like the
@@ -62,15 +62,15 @@ def compare_responses(
         dataset: its frequency responses are used.
         overrides: parameters to set first, in the variables' units.
         label: name of the parameter set, for tables and plots.
-        about: what that set is and where its values are from.
-        reference_hz: whose gain counts as 0 dB on both sides (Eq. 2.12); None compares absolute gains.
+        about: what the parameter set is and where its values are from.
+        reference_hz: frequency at which both gains count as 0 dB (Eq. 2.12); None compares absolute gains.
         plan: how the tests are run; a run that has not settled is repeated with longer settling.
         solver: of pysim.simulate; SOLVER where None.
         workers: runs at a time; all cores by default.
-        progress: called with runs done and runs in all; starts again where runs are repeated.
+        progress: called with the number of runs done and of all runs; counts from 0 again where runs are repeated.
     Returns:
-        simulated responses and the deviations of Table 1.3 per test; a run that failed, does not settle
-        or does not move fails its test, with its reason.
+        simulated responses and the deviations of Table 1.3 per test. A test fails, with its reason, if one of its
+        runs fails, does not settle or does not move.
     Raises:
         BadInput: no responses, one without the reference frequency, an unknown variable, or a unit that differs
             between model and data set; all before the first run.
@@ -113,7 +113,7 @@ def compare_responses(
 
 
 def _note(dataset: Dataset) -> str:
-    """What the data set says of itself, and what of it was left out."""
+    """The data set's description, and which of its logs were not compared."""
     logs = [record.source for record in dataset.logs()]
     if not logs:
         return dataset.description
@@ -123,7 +123,7 @@ def _note(dataset: Dataset) -> str:
 
 
 def _model_test(model: Model, dataset: Dataset, test: SineTest) -> SineTest:
-    """The measured test in the model's names, once the units are known to agree."""
+    """The measured test with the model's variable names; raises BadInput if a unit differs."""
     signals = (dataset.signal(test.input), dataset.signal(test.output))
     names = [model.measured(signal, f"data set {dataset.name!r}").name for signal in signals]
     return replace(test, input=names[0], output=names[1])
@@ -136,7 +136,7 @@ def _judge(
     plan: SteppedSine,
     reference_hz: float | None,
 ) -> ResponseComparison:
-    """Take this test's runs off the row and compare."""
+    """Take the test's own runs from `runs`, one per frequency in order, and compare them with the measurement."""
     frequencies = measured.frequency.tolist()
     own = [next(runs) for _ in frequencies]
     for frequency, run in zip(frequencies, own, strict=True):
@@ -161,12 +161,12 @@ def _conditions(model: Model, plan: SteppedSine, solver: Solver, about: str) -> 
 
 
 def versions() -> str:
-    """Of this project, Python and NumPy."""
+    """Versions of this project, Python and NumPy."""
     return f"{DISTRIBUTION} {version()}, Python {platform.python_version()}, NumPy {np.__version__}"
 
 
 def _parameters(model: Model, overrides: Mapping[str, float]) -> dict[str, tuple[float, str]]:
-    """Value and unit of every parameter that was in force; name -> (value, unit)."""
+    """Name -> value and unit of every parameter in these runs."""
     return {
         v.name: (overrides.get(v.name, v.start), v.unit)
         for v in model.variables

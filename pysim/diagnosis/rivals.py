@@ -1,7 +1,8 @@
-"""A larger model against a smaller one: what it gains, whether chance could do that, and what argues against it.
+"""Tests of a larger model against a smaller one: its gain in nats (log-likelihood), and the chance of such a gain.
 
-Source: the F test with the number of samples that coloured residuals are worth: Bartlett 1946, Supplement to the
-Journal of the Royal Statistical Society 8:27; Kish 1965, Survey Sampling, Section 8.2.
+Autocorrelated residuals inflate the variance of a gain by lambda, so that n samples are worth n / lambda.
+Source: F test at this effective sample size: Bartlett 1946, Supplement to the Journal of the Royal Statistical
+Society 8:27; Kish 1965, Survey Sampling, Section 8.2.
 """
 
 from __future__ import annotations
@@ -25,15 +26,15 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Rows:
-    """The measurements' rows of a point: what rivals with other states and sensors have in common.
+    """The measured rows of a point, without the rows of priors: these rows are the same for all rivals.
 
     Args:
         residual: (n_r,) in the units of the channels.
-        jacobian: (n_r, n) over their levels, initial states eliminated.
-        level: (n_r,) of the row's channel.
+        jacobian: (n_r, n) of the residual over its level, initial states eliminated.
+        level: (n_r,) standard deviation of the residual in the row's channel.
         series, blocks: (n_r,) numbers of the log and channel, and of the block.
         ordered: numbers of the series whose rows follow each other in time.
-        precision: (n, n) of a prior of the free parameters; none where None.
+        precision: (n, n) precision matrix of a prior of the free parameters; None without one.
     """
 
     residual: Array
@@ -46,7 +47,7 @@ class Rows:
 
 
 def rows(candidate: Candidate, residuals: WeightedResiduals, point: Point) -> Rows:
-    """Of a good point."""
+    """The measured rows of a point that could be simulated."""
     own = point.series >= 0
     ordered = frozenset(number for number, (one, _) in enumerate(residuals.series) if one.domain == "time")
     level = candidate.levels(residuals, point)[own]
@@ -56,18 +57,18 @@ def rows(candidate: Candidate, residuals: WeightedResiduals, point: Point) -> Ro
 
 
 def of(fit: FinalFit) -> Rows:
-    """The rows of what was fitted."""
+    """The measured rows of a refit at its best point."""
     return rows(fit.candidate, fit.candidate.residuals(fit.simulation), fit.point)
 
 
 def effective(left: Rows, changed: Array) -> float:
-    """lambda: by how much the residual's colour inflates the variance of what an effect gains.
+    """lambda, at least 1: by how much the colour of the residual inflates the variance of what an effect gains.
 
-    Neighbours in a log count by their autocorrelation, the harmonics of a steady sine, or the points of a table, as a
-    cluster whose rows are as large as they are.
+    Samples of a log count by their autocorrelations. The harmonics of a steady sine, or the points of a table, count
+    as a cluster, by the square of the sum of their products.
 
     Args:
-        left: of the larger model.
+        left: rows of the larger model.
         changed: (n_r,) by which the effect changes the residual, in the units of the channels.
     """
     rest, change = left.residual / left.level, changed / left.level
@@ -87,19 +88,18 @@ def effective(left: Rows, changed: Array) -> float:
 
 
 def _clustered(rest: Array, change: Array, left: Rows, own: NDArray[np.bool_]) -> float:
-    """Sum over clusters of the squares of their scores; at least as large as if their rows were independent."""
+    """Sum over clusters of the square of sum(rest * change); at least its value for independent rows."""
     edges = np.flatnonzero(np.diff(left.blocks[own]) != 0) + 1
     scores = [float(e @ d) for e, d in zip(np.split(rest, edges), np.split(change, edges), strict=True)]
     return max(float(np.sum(np.square(scores))), float(np.sum((rest * change) ** 2)))
 
 
 def p_value(gain: float, df: float, samples: float, size: int, inflated: float) -> float:
-    """Chance of a gain (nats) by so many parameters more where there is nothing to gain.
+    """p-value of the F test: chance of such a gain (nats) by `df` further parameters if the smaller model is true.
 
     Args:
-        samples: of all channels.
-        size: free numbers of the larger model.
-        inflated: lambda.
+        samples: number of samples of all channels.
+        size, inflated: number of free parameters, and lambda, of the larger model.
     """
     freedom = samples / inflated - size
     if freedom < 1:
@@ -109,7 +109,7 @@ def p_value(gain: float, df: float, samples: float, size: int, inflated: float) 
 
 
 def least_gain(chance: float, df: int, samples: float, size: int, inflated: float) -> float:
-    """nats whose `p_value` is this chance; infinite where too few samples are there to tell."""
+    """Gain in nats whose `p_value` is `chance`; infinite if there are too few samples for a test."""
     freedom = samples / inflated - size
     if freedom < 1:
         return math.inf
@@ -117,27 +117,27 @@ def least_gain(chance: float, df: int, samples: float, size: int, inflated: floa
 
 
 def samples(fit: FinalFit) -> float:
-    """Independent numbers of all channels, and of what has a known level."""
+    """Number of fitted samples of all channels, and of rows whose level is known."""
     residuals = fit.candidate.residuals(fit.simulation)
     return float(residuals.samples.sum()) + residuals.known_rows
 
 
 def penalised(gain: float, df: float, inflated: float, samples: float) -> float:
-    """Gain less the penalty of its parameters, nats (Schwarz 1978 at the effective size)."""
+    """Penalised gain, nats: half the difference in BIC (Schwarz 1978) at the effective sample size, times lambda."""
     return gain - 0.5 * df * inflated * math.log(max(samples / inflated, 3.0))
 
 
 def tolerance(inflated: float, changed: Array, level: Array, factor: float) -> float:
-    """What chance makes of the difference of two gains, nats: `factor` standard deviations.
+    """`factor` standard deviations of the difference of two gains by chance, nats.
 
     Args:
-        changed: (n_r,) difference of the two residuals; level: (n_r,).
+        changed, level: (n_r,) difference of the two models' residuals, and the level of each row.
     """
     return factor * math.sqrt(inflated * float(np.sum((changed / level) ** 2)))
 
 
 def reach(own: Rows, other: Rows, factor: float) -> float:
-    """The same of the gains of two models whose rows stand for the same measurements, in the levels of the first."""
+    """`tolerance` of the gains of two models, in the levels of the first: models with closer gains are tied."""
     apart = other.residual - own.residual
     return tolerance(effective(own, apart), apart, own.level, factor)
 
@@ -145,12 +145,12 @@ def reach(own: Rows, other: Rows, factor: float) -> float:
 def gain_test(
     smaller: FinalFit, larger: FinalFit, gain: float, df: float, size: int, choices: int, settings: Settings
 ) -> GainTest:
-    """The F test of what a larger model gains, at the number of samples that its residual is worth.
+    """F test of the gain of a larger model at the effective sample size, Bonferroni-corrected.
 
     Args:
-        gain: nats; df: numbers that the larger model has more, of a curve its effective coefficients.
-        size: free numbers of the larger model.
-        choices: ways to have come to the larger model by chance.
+        gain, df: nats, and number of further parameters; for a curve its effective number of coefficients.
+        size: number of free parameters of the larger model.
+        choices: number of comparisons by which the p-value is multiplied.
     """
     left, count = of(larger), samples(larger)
     inflated = effective(left, of(smaller).residual - left.residual)
@@ -165,12 +165,12 @@ def gain_test(
 
 
 def left_out_error(found: Rows, blocks: NDArray[np.intp], level: Array) -> Array:
-    """Half the sum of squares over `level` (n_r,) of each block once the others alone were fitted, to first order.
+    """Leave-one-block-out error: of each block, the cost once only the other blocks are fitted, to first order.
 
     Args:
-        blocks: (n_r,) number of each row's block.
+        blocks, level: (n_r,) number of each row's block, and standard deviation in which errors are counted.
     Returns:
-        (n_b,) nats.
+        (n_b,) half sums of squares, nats.
     Source: Allen 1974, Technometrics 16:125; Giordano and others 2019, AISTATS.
     """
     residual = found.residual / found.level
@@ -188,6 +188,6 @@ def left_out_error(found: Rows, blocks: NDArray[np.intp], level: Array) -> Array
 
 
 def shares_of_blocks(changed: Array, level: Array, blocks: NDArray[np.intp]) -> Array:
-    """(n_b,) share of what an effect does that lies in each block."""
+    """(n_b,) share of each block in the sum of squares of what an effect changes, over the levels."""
     size = np.bincount(blocks, (changed / level) ** 2)
     return np.asarray(size / max(float(size.sum()), np.finfo(float).tiny))

@@ -1,6 +1,6 @@
-"""Where the refits of candidates begin: what each does to the residual at some sizes, refitting allowed for.
+"""Screening: what each effect changes in the residual at some sizes, beyond what other parameters can imitate.
 
-It is a start for the refit and no judgement: at biased parameters the gain it promises errs by orders of magnitude.
+It gives the starts of refits and no judgement: at biased parameters its first-order gains are wrong by far.
 """
 
 from __future__ import annotations
@@ -30,11 +30,11 @@ class Screened:
 
     Args:
         candidate: the present model with the effect.
-        values: where a refit may begin.
-        tried: values of the effect's parameters that `change` is for.
-        gain: nats that it promises, refitting allowed for, to first order.
-        change: (n_r,) by which it changes the residual, in the units of the channels, refitting allowed for.
-        start: the refit at its beginning, as good as off; None where that is still to be simulated.
+        values: starting values for a refit.
+        tried: values of the effect's parameters at which `change` was computed.
+        gain: nats that the effect promises, to first order, with all parameters refitted.
+        change: (n_r,) change of the residual that parameters cannot imitate, in the units of the channels.
+        start: first state of the refit, the effect practically off; None if it must still be simulated.
         before: cost of the present model, simulated as the start is, nats.
     """
 
@@ -48,12 +48,12 @@ class Screened:
 
     @property
     def effect(self) -> Effect:
-        """The one that is new."""
+        """The effect that was added."""
         return self.candidate.effects[-1]
 
     def leaves(self, present: Rows) -> Rows:
-        """What the present model leaves with the effect at its best size, to first order: an effect that is missing
-        colours the residual, which must not argue against it.
+        """The present model's rows with the effect at its best size, to first order.
+        A missing effect colours the residual, and this colour must not count against the effect itself.
         """
         change, residual = self.change / present.level, present.residual / present.level
         amount = -float(change @ residual) / float(change @ change) if self.gain > 0 else 0.0
@@ -62,16 +62,16 @@ class Screened:
 
 @dataclass(frozen=True)
 class Sizes:
-    """At which sizes an effect is tried, over its usual one.
+    """Sizes at which an effect is tried, over its usual (nominal) size. An amount is an effect that is no limit.
 
     Args:
-        off: of an amount as good as none, where slopes are those beside none: at none a Stribeck friction has none, and
-            a hundred times more of air in a chamber that runs empty already costs 30 nats.
-        kept: of the same with a state of its own: smaller ones no step control sees, and slopes err.
-        usual: of an amount.
-        limits: of a limit, over the largest value that the limited variable reaches.
-        limits_unknown: of a limit of which that is not known, over its usual value.
-        moved: what initial states may still take, as a share of what the effect does, above which they move along.
+        off: of an amount that is practically off, where its derivative is taken. At exactly 0, a Stribeck friction has
+            none; at 1e-5, air in a chamber that runs empty already costs 30 nats.
+        kept: the same for an amount with a state of its own; step control misses smaller ones, derivatives err.
+        usual: of an amount that is simulated at some sizes.
+        limits: of a limit (end stop, saturation), over the largest value that the limited variable reaches.
+        limits_unknown: of a limit if that largest value is not known, over its usual value.
+        moved: share of the effect's change that initial states may imitate before they are estimated again.
     """
 
     off: float = 1e-7
@@ -90,15 +90,15 @@ def screen(
     *,
     fits: Simulation | None = None,
 ) -> list[Screened]:
-    """Every effect of the catalogue in the present model, the best gain first.
+    """Screen every effect of the catalogue in the present model; the largest gain first.
 
-    Of amounts one run gives the slopes where all are as good as off; other effects are simulated at each size. Effects
-    that cannot be built or simulated are left out, and `models.refused` says which.
+    For amounts, one run with all of them practically off gives the derivatives. Other effects are simulated at each
+    size. Effects that cannot be compiled or simulated are left out and listed in `models.refused`.
 
     Args:
-        beside: the present model, compared by orbits (False) or by transients (True).
-        simulation: of an effect at a size.
-        fits: of refits, which begin at the slopes; as `simulation` where None.
+        beside: returns the present fit, its stepped sines as orbits (False) or simulated over time (True).
+        simulation: solver settings of an effect at a size.
+        fits: solver settings of the starts of refits; `simulation` if None.
     """
     sizes, before = sizes or Sizes(), cache(lambda transient: _Before.of(beside(transient)))
     own = before(False).present.candidate
@@ -122,12 +122,12 @@ def screen(
 def screened(
     candidate: Candidate, effect: Effect, present: FinalFit, simulation: Simulation, sizes: Sizes | None = None
 ) -> list[Screened]:
-    """One effect at each of its sizes; none where the model cannot be simulated with it."""
+    """Screen one effect at each of its sizes; empty if the model cannot be simulated with it."""
     return list(_screened(candidate, effect, _Before.of(present), simulation, sizes or Sizes()))
 
 
 def best_of_each(screened: Sequence[Screened]) -> list[Screened]:
-    """The best size of each effect."""
+    """The first entry of each effect, which is its best size in a list with the largest gain first."""
     best: dict[str, Screened] = {}
     for one in screened:
         best.setdefault(one.effect.name, one)
@@ -136,11 +136,11 @@ def best_of_each(screened: Sequence[Screened]) -> list[Screened]:
 
 @dataclass(frozen=True)
 class _Before:
-    """The present model as effects change it.
+    """The present model, to which effects are added.
 
     Args:
-        rows: of its point.
-        span: (n_r, rank) what refitting can reach, over the levels.
+        rows: measured rows of its best point.
+        span: (n_r, rank) orthonormal basis of what parameters can change in the residual over its levels.
     """
 
     present: FinalFit
@@ -153,12 +153,12 @@ class _Before:
         return cls(present, found, _span(found))
 
     def beyond(self, change: Array) -> Array:
-        """What of a change of the residual over its levels (n_r,) refitting leaves."""
+        """The part of a change of the residual over its levels (n_r,) that parameters cannot imitate."""
         return np.asarray(change - self.span @ (self.span.T @ change))
 
     def best(self, effect: Effect, change: Array, left: Array) -> tuple[float, float] | None:
-        """By how many times a change the effect is best, and the nats that this promises; None where refitting does as
-        much as the effect."""
+        """The best multiple of an effect's change (n_r,) and the gain there, nats, to first order.
+        None if parameters imitate the change, that is, if nothing is `left` of it."""
         size = float(left @ left)
         if not size > EXACT * float(change @ change):
             return None
@@ -170,7 +170,7 @@ class _Before:
 def _by_slopes(
     models: Models, befores: Callable[[bool], _Before], simulation: Simulation, sizes: Sizes
 ) -> Iterator[Screened]:
-    """Effects that are amounts, with the beginnings of their refits."""
+    """Screen the amounts by their derivatives where all are practically off; their refits start there."""
     first = befores(False).present.candidate
     for own in models.amounts(first.effects, first.nuisances):
         before, more = befores(own.transient), own.effects[len(first.effects) :]
@@ -197,7 +197,7 @@ def _by_slopes(
 
 
 def _at_share(effect: Effect, share: float) -> dict[Key, float]:
-    """Its strengths at a share of the way from off to their usual values."""
+    """The effect's strengths at a share of the way from off to their usual values."""
     return {(effect.name, p.name): _share_of(p, share) for p in effect.strengths}
 
 
@@ -214,7 +214,7 @@ def _screened(
     residuals = candidate.residuals(simulation)
 
     def changed(point: Point) -> tuple[Array, Array]:
-        """What the effect does to the residual over its levels (n_r,), and what of it refitting leaves."""
+        """Change of the residual over its levels (n_r,), and the part that parameters cannot imitate."""
         change = (rows(candidate, residuals, point).residual - before.rows.residual) / level
         return change, before.beyond(change)
 
@@ -238,12 +238,12 @@ def _screened(
         start = with_effect(present.values, effect, _amounted(effect, tried, amount))
         yield Screened(candidate, start, tried, gain, left * level)
         if effect.limit and milder is not None and point.cost > milder[0] and gain <= milder[1]:
-            return  # what limits more is farther from the measurements
+            return  # a tighter limit is even farther from the measurements
         milder = point.cost, gain
 
 
 def own_values(one: Screened) -> Values:
-    """A start at the model's own parameters, the new effect at its usual size; a limit as it was screened."""
+    """Starting values at the model's nominal parameters, the new effect at its usual size, a limit as screened."""
     usual = {
         p.name: one.values[one.effect.name, p.name] if p.inverse else _within(p, p.nominal)
         for p in one.effect.strengths
@@ -252,14 +252,14 @@ def own_values(one: Screened) -> Values:
 
 
 def with_effect(values: Values, effect: Effect, own: Mapping[str, float]) -> dict[Key, float]:
-    """Parameters of a model and of an effect that is new in it."""
+    """Values of a model's parameters, joined with those of a new effect."""
     found: dict[Key, float] = dict(values)
     found.update({(effect.name, name): value for name, value in own.items()})
     return found
 
 
 def _span(found: Rows) -> Array:
-    """Orthonormal columns (n_r, rank) that span what refitting can reach, to first order."""
+    """Orthonormal basis (n_r, rank) of what parameters can change in the residual over its levels, to first order."""
     size = np.linalg.norm(found.jacobian, axis=0)
     used = found.jacobian[:, size > 0] / size[size > 0]
     if not used.shape[1]:
@@ -273,7 +273,7 @@ def _signed(effect: Effect) -> bool:
 
 
 def _values(effect: Effect, largest: float | None, sizes: Sizes) -> Iterator[dict[str, float]]:
-    """Values of all its parameters: its strengths at each size, its shapes as declared."""
+    """Values of the effect's parameters to try: strengths at each size, all others as declared."""
     declared = {p.name: p.default for p in effect.parameters}
     limit = effect.limit
     if limit and largest:
@@ -286,7 +286,7 @@ def _values(effect: Effect, largest: float | None, sizes: Sizes) -> Iterator[dic
 
 
 def _amounted(effect: Effect, tried: Mapping[str, float], amount: float) -> dict[str, float]:
-    """At the amount that looked best, within what first order can tell; limits as they were tried."""
+    """The tried values times the best multiple, which is clipped to 0.2 ... 3; limits as they were tried."""
     if effect.limit:
         return dict(tried)
     amount = math.copysign(min(max(abs(amount), 0.2), 3.0), amount) if amount else 0.5
@@ -295,7 +295,7 @@ def _amounted(effect: Effect, tried: Mapping[str, float], amount: float) -> dict
 
 
 def _largest(candidate: Candidate, effect: Effect, present: FinalFit, simulation: Simulation) -> float | None:
-    """Size in the fitted tests of the variable that the effect limits; None where it does not say which that is."""
+    """Largest size, in the fitted logs, of the variable that the effect limits; None if its class does not name it."""
     limit = next((p for p in effect.strengths if p.limits), None)
     if limit is None or len(effect.strengths) > 1:
         return None

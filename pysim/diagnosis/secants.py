@@ -1,4 +1,4 @@
-"""Slopes of a model with events: from its answers themselves, since events leave no others that are cheap.
+"""Jacobian of a model with events: finite differences and Broyden updates, since sensitivities need smooth laws.
 
 Source: Broyden 1965, Mathematics of Computation 19:577.
 """
@@ -17,29 +17,29 @@ from pysim.identify.greybox.residuals import Carried
 
 Array = NDArray[np.float64]
 
-# Steps of a difference, in the numbers of the search: the first one, the factor to the next, and the longest. A step is
-# long enough where it changes the residual by this share of its level, which integration errors do not.
+# Steps of a finite difference, in search variables: the first one, the factor to the next, and the longest. A step is
+# long enough if it changes the residual by _SEEN of its level, more than integration errors do.
 _FIRST, _LONGER, _LONGEST = 3e-3, 6.0, 0.11
 _SEEN = 0.1
 
 
 class Secants:
-    """The objective with slopes that are known at a start, or found there by differences, and corrected by each point.
+    """The objective with a Jacobian that is known, or found by differences, at the start and updated at each point.
 
-    Initial states stay where they are carried to: they have no slopes here.
+    Initial states are held, since the Jacobian does not cover them.
 
     Args:
         candidate: a model with events.
-        simulation: of its runs.
-        known: slopes of the measurements' rows by parameter, in the units of the channels, at a point nearby; None
-            where there are none.
+        simulation: solver settings of its runs.
+        known: key -> (n_r,) derivative of the measured rows at a point nearby, in the units of the channels; None
+            if nothing is known.
     """
 
     def __init__(self, candidate: Candidate, simulation: Simulation, known: Mapping[Key, Array] | None) -> None:
         self._candidate, self._residuals = candidate, candidate.residuals(simulation)
         self._known = known or {}
         self._slopes: Array | None = None
-        self._at: tuple[Array, Array] | None = None  # the last point (n,), and its residual (n_r,) in units
+        self._at: tuple[Array, Array] | None = None  # last point (n,), and its residual (n_r,) in the channels' units
 
     def evaluate(self, x: Array, carried: Carried) -> Point:
         """The objective at x (n,)."""
@@ -64,7 +64,7 @@ class Secants:
         return self._residuals.evaluate(candidate.model, candidate.space, x, carried, jacobian=False, states=False)
 
     def _first(self, x: Array, carried: Carried, residual: Array, rows: NDArray[np.bool_]) -> Array:
-        """(n_r, n): columns that are known, and differences for the others."""
+        """First Jacobian (n_r, n): the known columns, and finite differences for the others."""
         columns = []
         for j, key in enumerate(self._candidate.keys):
             known = self._known.get(key)
@@ -77,7 +77,7 @@ class Secants:
         return np.column_stack(columns) if columns else np.zeros((residual.size, 0))
 
     def _difference(self, x: Array, carried: Carried, residual: Array, j: int) -> Array:
-        """(n_r,) slope by the j-th number, over a step that is long enough to be seen; 0 where there is no answer."""
+        """(n_r,) derivative by the j-th variable, over a step long enough to be seen; 0 if no run succeeds."""
         upper, column, step = self._candidate.space.bounds()[1][j], np.zeros(residual.size), _FIRST
         while step <= _LONGEST:
             moved = x.copy()
