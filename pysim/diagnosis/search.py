@@ -1,5 +1,7 @@
-"""Which effects the data demand: forward without asking for significance, then backward from the richest model.
+"""Search for the effects that the data demand: forward selection, then backward elimination from the richest model.
 
+An effect may join without being significant (on trial). In the end each effect has to pass an F test, and neither
+validation logs (use "validate") nor left-out blocks of the data may get worse with it.
 Source: general to specific: Hendry and Krolzig 2005, The Economic Journal 115:C32; Mallows 1973, Technometrics 15:661.
 """
 
@@ -30,13 +32,13 @@ from pysim.types.answer import Detectable, GainTest, Verdict
 
 @dataclass(frozen=True)
 class Compared:
-    """A candidate of one step against the model it extends.
+    """A candidate of one forward step, tested against the model that it extends.
 
     Args:
-        fit: the candidate.
-        added: what it has more; a sensor's error with its signal.
-        test: what it gains.
-        ties: others of the step that the data do not tell from it.
+        fit: the refitted candidate.
+        added: label of the effect or sensor error that it adds.
+        test: F test of its gain.
+        ties: labels of the step's other candidates that the data do not separate from it.
     """
 
     fit: FinalFit
@@ -47,14 +49,14 @@ class Compared:
 
 @dataclass(frozen=True)
 class Table:
-    """All that was tried beside one model.
+    """All candidates that were tried as the next step from one model.
 
     Args:
-        names: what the model has already.
-        avoidable: nats that could be gained.
-        rivals: refitted, best first.
-        looked: every effect at its best size.
-        beyond: what passes its test, and is not among the rivals since nobody would believe its size.
+        names: labels of the effects and sensor errors that the model has already.
+        avoidable: nats that a model which leaves only noise would gain.
+        rivals: refitted candidates, best first.
+        looked: every effect as it was screened, at its best size.
+        beyond: labels that pass their test but are no rivals, since their fitted size is not believable.
     """
 
     names: tuple[str, ...]
@@ -66,13 +68,13 @@ class Table:
 
 @dataclass(frozen=True)
 class Step:
-    """One step forward.
+    """One forward step.
 
     Args:
-        model: with what was added.
-        added: what that was.
-        on_trial: whether it was not significant by itself, or takes next to nothing of what could be gained.
-        rivals: all that were refitted, best first.
+        model: the refitted model after the step.
+        added: label of the effect or sensor error that was added.
+        on_trial: whether it was not significant alone, or gains less than `Settings.small` of what is avoidable.
+        rivals: all refitted candidates of the step, best first.
     """
 
     model: FinalFit
@@ -84,16 +86,16 @@ class Step:
 
 @dataclass(frozen=True)
 class Found:
-    """What the search came to.
+    """The result of the search.
 
     Args:
         base: the refitted base model.
-        final: the model that is kept; the base where nothing is.
-        steps: forward, in the order they were made.
-        losses: name of each effect kept -> what leaving it out costs.
-        undecidable: whether too few independent samples are there to decide anything.
-        more: whether something passes its test that is not kept, since unseen logs or blocks or its size argue against
-            it, or may pass that was not tried, since no more effects were asked for.
+        final: the model that is kept; the base model if no effect is.
+        steps: forward steps, in their order.
+        losses: label of each part that is kept -> test of what leaving it out costs.
+        undecidable: whether some test had too few effective samples.
+        more: whether more is missing than is kept: an effect was significant, but vetoed or of a size that is not
+            believable; or the limit on the number of effects ended the search.
     """
 
     base: FinalFit
@@ -106,14 +108,12 @@ class Found:
 
 
 class Search:
-    """One search; it remembers what was refitted.
+    """One search, with a cache of its refits.
 
     Args:
         models: makes candidates.
-        fine: simulation of what is kept; candidates are simulated more roughly.
-        settings: its numbers.
-        say: gets what is being done.
-        checkpoint: keeps what was refitted.
+        fine: solver settings for models that are kept; candidates get larger tolerances.
+        checkpoint: keeps finished refits in a file.
     """
 
     def __init__(
@@ -128,7 +128,7 @@ class Search:
         models.watch = self._tried
 
     def _tried(self, fit: FinalFit) -> None:
-        """Say what a point leaves over the noise: as the base model tells it, or before that the point itself."""
+        """Report a point's residual over the noise floors, which are the point's own until the base model is fitted."""
         floors = self.floors if self.floors.floors else self.floors.with_(fit)
         own = fit.candidate
         values = {key if isinstance(key, str) else ".".join(key): value for key, value in fit.values.items()}
@@ -136,7 +136,7 @@ class Search:
         self.say.tried(Trial(names, floors.whole(fit), {} if own.law else values))
 
     def fit_base(self) -> FinalFit:
-        """The base model refitted.
+        """Refit the base model, and choose the tolerances and step limits of all later runs by it.
 
         Raises:
             BadInput: it cannot be simulated at its own parameters.
@@ -160,8 +160,8 @@ class Search:
         return self._keep(replace(base, simulation=self.fine))
 
     def _as_measured(self, fit: FinalFit) -> FinalFit:
-        """A fit with stepped sines run as the bench ran them, where that promises more: a swing that dies away slowly
-        is not steady yet when a log ends. All other models are compared in the same way then."""
+        """The fit with stepped sines simulated over time instead of as periodic orbits, if that fits clearly better.
+        A slow transient may still be there when a log ends. All later models are then simulated over time too."""
         if fit.candidate.transient or all(one.domain == "time" for one in fit.candidate.problem.observations):
             return fit
         candidate = self.models.of(fit.candidate.effects, transient=True)
@@ -175,12 +175,12 @@ class Search:
         return transient
 
     def _hardly(self, fit: FinalFit) -> float:
-        """Nats that are not worth another way to simulate."""
+        """Gain in nats below which another way to simulate is not worth it."""
         return max(self.settings.anew, self.settings.small * self.floors.with_(fit).potential(fit))
 
     def _fine_enough(self, fit: FinalFit) -> FinalFit:
-        """A fit integrated so finely that the error is small beside the floor, and that finer runs promise hardly more,
-        or keep hardly more: a sharp law asks for it, whose slopes err before its signals do."""
+        """Refine the integration until its error is small beside the noise floor and finer runs gain hardly anything.
+        The gain is asked too, since the Jacobian of a sharp law becomes inaccurate before its signals do."""
         for _ in range(self.settings.refinements if fit.good else 0):
             other = begin(fit.candidate, fit.values, fit.simulation.finer(), fit)
             if not other.good:
@@ -195,12 +195,12 @@ class Search:
         return fit
 
     def _once(self, part: str, find: Callable[[], FinalFit], candidate: Candidate) -> FinalFit:
-        """One refit of the checkpoint."""
+        """The refit of a part: from the checkpoint, or found now."""
         return self._checkpoint.once(part, lambda: [find()], [candidate], self._simulations)[0]
 
     @property
     def _simulations(self) -> tuple[Simulation, ...]:
-        """That a refit may have ended by."""
+        """All solver settings with which a refit may have ended."""
         found = [self.rough, self.fine]
         for _ in range(self.settings.refinements):
             found.append(found[-1].finer())
@@ -208,14 +208,14 @@ class Search:
 
     @property
     def tables(self) -> tuple[Table, ...]:
-        """All that was tried, in order."""
+        """The tables of all models that were extended, in order."""
         return tuple(self._tables.values())
 
     def detectable(self, fit: FinalFit) -> tuple[Detectable, ...]:
-        """From which size on each effect that a model lacks would have been found beside it, but for rare chance.
+        """Size from which each effect that a model lacks would almost surely have been found (power of the F test).
 
-        An amount counts as what it does at a size, times its share of that; how a limit acts changes with its size, so
-        that none is given for it.
+        What an effect changes is scaled linearly from the size at which it was screened. Limits are left out, since
+        they are not linear in their size. Empty if the model leaves more than noise, which hides effects.
         """
         table = self._tables.get(frozenset(fit.candidate.labels))
         if table is None or not self.floors.within(fit, self.settings.near):
@@ -234,7 +234,7 @@ class Search:
         return tuple(found)
 
     def as_it_is(self) -> FinalFit:
-        """The base model with its own parameters, initial states estimated.
+        """The nominal base model; only the initial states of the logs are estimated.
 
         Raises:
             BadInput: it cannot be simulated.
@@ -249,10 +249,10 @@ class Search:
         return replace(first, state=replace(first.state, best=point)) if point.good else first
 
     def with_effects(self, present: FinalFit, effects: Sequence[Effect]) -> FinalFit:
-        """The model with given effects, refitted from the best of their sizes.
+        """The model with these effects, refitted; the last one starts at the best of its screened sizes.
 
         Raises:
-            BadInput: one cannot be built or simulated.
+            BadInput: an effect cannot be compiled or simulated.
         """
         candidate = self.models.of(effects, present.candidate.nuisances)
         found = screened(candidate, effects[-1], self._beside(present, candidate.transient), self.rough)
@@ -265,7 +265,7 @@ class Search:
         return self._keep(fit)
 
     def run(self, base: FinalFit, most: int) -> Found:
-        """Forward along the best steps, then backward from their end."""
+        """Forward selection of at most `most` parts, then backward elimination."""
         self.floors = self.floors.with_(base)
         steps = self._forward(base, most)
         if not steps:
@@ -276,11 +276,11 @@ class Search:
         return replace(end, more=end.more or limited or (table is not None and bool(table.beyond)))
 
     def is_done(self, fit: FinalFit) -> bool:
-        """Whether a model leaves so little over the floor that no two effects together are worth a trial."""
+        """Whether every residual is so close to its noise floor that no further step on trial is worth it."""
         return self.floors.within(fit, self.settings.held_out)
 
     def _forward(self, base: FinalFit, most: int) -> list[Step]:
-        """Steps to the best rival each; after each one the earlier ones are looked at again."""
+        """Forward steps, to the best rival each; after each step earlier choices may be exchanged for their rivals."""
         steps: list[Step] = []
         present, in_vain, worth = base, 0, self.floors.potential(base)
         while len(steps) < most:
@@ -305,10 +305,10 @@ class Search:
         return steps
 
     def _exchanged(self, base: FinalFit, steps: list[Step]) -> list[Step]:
-        """The same with a rival in place of an earlier choice, where that does better beside what came in since.
+        """The steps, with a rival in place of an earlier choice if that does better together with the later steps.
 
-        What fills in for something else takes of its share what it can; two such decide between each other only when
-        the rest is in. Source: Miller 2002, Subset Selection in Regression, section 3.7: sequential replacement.
+        At first, several effects can imitate one that is still missing. Which of them is right shows once it is in
+        the model. Source: Miller 2002, Subset Selection in Regression, section 3.7: sequential replacement.
         """
         for k, step in enumerate(steps[:-1]):
             present, first, *others = steps[-1].model, *step.rivals
@@ -330,7 +330,7 @@ class Search:
         return steps
 
     def _in_place(self, present: FinalFit, name: str, rival: Compared) -> FinalFit:
-        """The model with a rival in place of what it has by a name, refitted to the end where it may do as well."""
+        """The present model with a rival in place of its part `name`, refitted to the end if it may do as well."""
         new = rival.fit.candidate.parts[rival.added]
         parts = [new if label == name else part for label, part in present.candidate.parts.items()]
         candidate = self.models.of_parts(parts, transient=present.candidate.transient)
@@ -350,7 +350,7 @@ class Search:
         )
 
     def expand(self, present: FinalFit) -> Table:
-        """All that may be added to a model, refitted, the best first; and what was only screened."""
+        """Screen and refit everything that may be added to a model, and test it; each model is extended once."""
         key = frozenset(present.candidate.labels)
         if key not in self._tables:
             self._tables[key] = self._expanded(present)
@@ -387,7 +387,7 @@ class Search:
         return Table(labels, avoidable, self._ordered(compared), tried, tuple(beyond))
 
     def _beside(self, fit: FinalFit, transient: bool) -> FinalFit:
-        """A fit compared by orbits or by transients, as a rival is."""
+        """The fit as a rival is compared with it: if `transient`, refitted with stepped sines simulated over time."""
         if fit.candidate.transient == transient or fit.candidate.transient:
             return fit
         key = frozenset(fit.candidate.labels), True
@@ -399,10 +399,10 @@ class Search:
         return self._fits[key]
 
     def test(self, smaller: FinalFit, larger: FinalFit, choices: int | None = None) -> GainTest:
-        """The larger model against the smaller by what was fitted alone.
+        """F test of the larger model against the smaller one, on the fitted logs.
 
         Args:
-            choices: ways to have come to the larger model by chance; all that was tried where None.
+            choices: number of comparisons, for the Bonferroni correction; all candidates of a step if None.
         """
         smaller = self._beside(smaller, larger.candidate.transient)
         gain, size = smaller.point.cost - larger.point.cost, larger.candidate.size
@@ -410,10 +410,10 @@ class Search:
         return rivals.gain_test(smaller, larger, gain, df, size, choices or max(self.tried, 1), self.settings)
 
     def _ordered(self, compared: list[Compared]) -> list[Compared]:
-        """By gain less penalty, the first with its ties.
+        """Candidates with a gain, ordered by penalised gain (BIC at the effective sample size); the first has its ties.
 
-        All count with the correlation of those that gain much. Where several gain as much and leave next to nothing,
-        the one with the fewest parameters is first: what another gains more is the shape of the law.
+        All count with the median lambda of those that gain much. If several gain nearly the same and leave only noise,
+        the one with the fewest parameters is first: the others' further gain lies in the shape of the law.
         """
         good = [one for one in compared if one.test.gain > 0]
         if not good:
@@ -436,7 +436,7 @@ class Search:
         return [replace(first, ties=ties), *(one for one in scored if one is not first)]
 
     def _ties(self, best: Compared, others: Sequence[Compared]) -> tuple[str, ...]:
-        """Names of those that the data do not tell from the best."""
+        """Labels of the converged candidates that the data do not separate from the best one."""
         own, found = rivals.of(best.fit), []
         for one in others:
             if one is best or not (one.fit.ended and best.fit.ended):
@@ -449,7 +449,7 @@ class Search:
         return tuple(found)
 
     def _backward(self, base: FinalFit, steps: Sequence[Step]) -> Found:
-        """What of the richest model is needed: the worst goes until leaving any out costs."""
+        """Backward elimination: the least significant part leaves the model until every part passes its test."""
         richest = steps[-1].model
         on_trial = {step.added for step in steps if step.on_trial}
         final, losses, undecidable, more = richest, dict[str, GainTest](), False, False
@@ -466,7 +466,7 @@ class Search:
         return Found(base, final, tuple(steps), self.floors, losses, undecidable, more)
 
     def _loss(self, final: FinalFit, name: str, on_trial: set[str]) -> GainTest:
-        """What leaving one out costs: the F test, then what logs and blocks that were not fitted say."""
+        """Test of a part by leaving it out: F test, believable size, then validation logs and left-out blocks."""
         smaller = self._without(final, name)
         chosen = sum(one in on_trial for one in final.candidate.labels)
         choices = math.comb(max(self.tried, 1), chosen + 1) if name in on_trial else max(self.tried, 1)
@@ -478,7 +478,7 @@ class Search:
         return self.vetoed(smaller, final, test)
 
     def vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest) -> GainTest:
-        """A gain as logs that may choose and blocks left out see it: vetoed where either gets worse."""
+        """Check a gain on validation logs and left-out blocks: VETOED if either error grows by more than chance."""
         smaller = self._beside(smaller, larger.candidate.transient)
         own, other = rivals.of(larger), rivals.of(smaller)
         apart = other.residual - own.residual
@@ -497,7 +497,7 @@ class Search:
         return replace(test, verdict=Verdict.VETOED) if vetoed else test
 
     def _held_out(self, smaller: FinalFit, larger: FinalFit) -> tuple[float, float] | None:
-        """By how many nats the logs that may choose get worse, and how many chance makes of it; None without such."""
+        """Increase of the validation logs' cost by the larger model and by chance, nats; None without such logs."""
         if not larger.candidate.residuals(larger.simulation, "validate").observations:
             return None
         opened = not (larger.candidate.law or larger.candidate.has_events)
@@ -507,8 +507,8 @@ class Search:
         return cost - before, rivals.reach(own, other, self.settings.tie)
 
     def _beside_unfitted(self, fit: FinalFit, opened: bool) -> tuple[rivals.Rows | None, float]:
-        """A fit beside the logs that may choose, opened: as near to them as it leaves its parameters open. Rows, none
-        where one cannot be simulated, and nats. A law is not opened: it would bend where nothing was measured."""
+        """Rows of a fit on the validation logs, None if a run fails, and cost there, nats. If `opened`, the parameters
+        may move within their uncertainty (`brought_near`); a learned law would then change where nothing was fitted."""
         key = (*_key(fit.candidate), opened)
         known = self._unfitted.get(key)
         if known is None or known[0] is not fit:
@@ -523,8 +523,8 @@ class Search:
         return known[1:]
 
     def _without(self, fit: FinalFit, label: str) -> FinalFit:
-        """The model without one effect or sensor error: refitted from where the larger one stands, which a fit of its
-        own may not have come to, and the better of the two."""
+        """The model without one effect or sensor error, refitted from the values of the larger model.
+        Returns the better of this refit and an earlier one, which may have ended in another local minimum."""
         parts = [part for own, part in fit.candidate.parts.items() if own != label]
         candidate = self.models.of_parts(parts, transient=fit.candidate.transient)
         values = {key: value for key, value in fit.values.items() if not (isinstance(key, tuple) and key[0] == label)}
@@ -532,8 +532,8 @@ class Search:
         return self._keep(self._once(f"without {label} of {' + '.join(fit.candidate.labels)}", find, candidate))
 
     def _refitted(self, candidate: Candidate, values: Values, present: FinalFit) -> FinalFit:
-        """Refitted from where another model stands, or from the base model if that does not run; or as it is known
-        where that soon promises to end hardly lower."""
+        """Refit a candidate from the values of another model, or of the base model if those cannot be simulated.
+        Returns an earlier refit if the new one, after a few iterations, does not promise a clearly lower cost."""
         start = begin(candidate, values, self.rough, present)
         if not start.good:
             base = self._beside(self._fits[_key(self.models.of(()))], candidate.transient)
@@ -555,7 +555,7 @@ class Search:
 
 
 def _steps(fit: FinalFit) -> int:
-    """That the longest run takes, of those that may choose too."""
+    """Integration steps, rejected ones included, of the longest run of fitted and validation logs."""
     overrides, simulation = fit.candidate.held(fit.values).fixed, fit.simulation
     every = [run for use in ("fit", "validate") for run in fit.candidate.residuals(simulation, use).runs]
     longest = max((run.over_time(overrides, None) for run in every), key=lambda run: float(run.times[-1]) - run.start)
@@ -564,5 +564,5 @@ def _steps(fit: FinalFit) -> int:
 
 
 def _key(candidate: Candidate) -> tuple[frozenset[str], bool]:
-    """A model, whatever the order in which effects came into it, and how it is compared."""
+    """Key of a model in the caches: the set of its labels, and whether stepped sines are simulated over time."""
     return frozenset(candidate.labels), candidate.transient

@@ -1,4 +1,4 @@
-"""What is diagnosed: a model, its measurements, a catalogue, and a way to make models with effects."""
+"""Input of a diagnosis: a model, its measurements, a catalogue of effects, and how to compile models with them."""
 
 from __future__ import annotations
 
@@ -19,10 +19,10 @@ from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import beside
 from pysim.types import BadInput, Dataset, Effect, MeasuredRecord, Model, Note, NoteCode
 
-# Effects -> the model that has them, and effect name -> the name ahead of its parameters there.
+# Effects -> the compiled model that has them, and effect name -> prefix of its parameters' names there.
 BuildVariant = Callable[[Sequence[Effect]], tuple[Model, Mapping[str, str]]]
 
-# Effects and terms beside them -> the model that has both.
+# Effects, and terms of learned laws -> the compiled model that has both.
 BuildLaw = Callable[[Sequence[Effect], Term], Model]
 
 TEST = "test"
@@ -30,21 +30,21 @@ TEST = "test"
 
 @dataclass(frozen=True)
 class Session:
-    """Checked once; every step takes it.
+    """The checked input that every step of a diagnosis takes.
 
     Args:
         model: the base model.
-        data: what is fitted and what may choose, with the parameters that differ in these tests.
-        unseen: logs of use "test", which nothing looks at before the verdict; None where there are none.
+        data: logs of use "fit" and "validate" (used to choose), and the parameters that differ in these tests.
+        unseen: held-out logs, of use "test", which nothing reads before the verdict; None if there are none.
         parameters: of the base model that may be refitted.
         catalogue: effects to consider.
-        build: makes models with effects; None where the model's source is not at hand.
-        slots: replaceable parts of the model.
+        build: compiles models with effects; None if the model's Modelica source is not available.
+        slots: replaceable components of the model, where effects and laws may be put.
         treatment: how logs are compared.
         notes: what was assumed.
         settings: the numbers of the search.
-        workers: where runs go.
-        build_law: makes models with laws that no catalogue has; None likewise.
+        workers: threads that simulate.
+        build_law: compiles models with learned laws; None if the source is not available.
     """
 
     model: Model
@@ -62,17 +62,17 @@ class Session:
 
     @property
     def dataset(self) -> Dataset:
-        """What is fitted and what may choose."""
+        """The logs that are fitted or used to choose (validation data)."""
         return self.data.dataset
 
     @property
     def has_clock(self) -> bool:
-        """Whether every log that is fitted says when it began, and not all at once."""
+        """Whether all fitted logs say when they began on a common clock, and not all began at the same time."""
         begins = {record.begin for record in self.dataset.logs() if record.use == "fit"}
         return len(begins) > 1 and None not in begins
 
     def unseen_beside(self, model: Model, space: ParameterSpace) -> Problem:
-        """The logs that nothing has looked at, beside a model."""
+        """The held-out logs together with a model and its parameters."""
         assert self.unseen is not None
         records = tuple(replace(record, use="fit") for record in self.unseen.dataset.records)
         data = replace(self.unseen, dataset=replace(self.unseen.dataset, records=records))
@@ -81,9 +81,9 @@ class Session:
 
     @cached_property
     def problems(self) -> tuple[Problem, Problem]:
-        """The base model beside the measurements: stepped sines as periodic orbits, and run as the bench ran them.
+        """The base model and the measurements, with stepped sines as periodic orbits, and simulated over time.
 
-        Long logs keep all their rows: models are compared sample by sample.
+        Long logs keep all their rows, since models are compared sample by sample.
         """
         noise = replace(self.treatment.noise, whole=sys.maxsize)
         ways = (replace(self.treatment, steady=steady, noise=noise) for steady in ("orbit", "transient"))
@@ -110,21 +110,21 @@ def session(
     workers: int | None = None,
     build_law: BuildLaw | None = None,
 ) -> Session:
-    """Bring everything together.
+    """Check model, measurements and catalogue, and make the session.
 
     Args:
-        free: parameters that may be refitted; all that the model gives min, max and nominal where None.
+        free: parameters that may be refitted; None takes all with min, max and nominal in the model.
         bounds: free parameter -> lower and upper bound in its unit, in place of the model's min and max.
-        priors: free parameter -> mean and standard deviation of what is known of it beforehand, in its unit.
+        priors: free parameter -> mean and standard deviation of a Gaussian prior, in its unit.
         overrides: parameters of the model that differ in these tests.
-        rested: whether the model comes to rest ahead of a log; else it begins as its start values say.
-        reference_hz: whose gain counts as 0 dB in measured responses (Eq. 2.12); None takes gains as they are.
-        initial: what is known of the plant at a log's first sample: "near rest", "rest" or "estimate".
-        workers: runs at a time; all cores where None.
-        build_law: makes models with laws that no catalogue has; None learns none.
+        rested: whether the model settles before each log; else it begins at its start values.
+        reference_hz: frequency whose gain counts as 0 dB in measured responses (Eq. 2.12); None takes absolute gains.
+        initial: what is known of the plant's state at a log's first sample: "near rest", "rest" or "estimate".
+        workers: number of simultaneous runs; all cores if None.
+        build_law: compiles models with learned laws; None learns no law.
     Raises:
-        BadInput: no free parameter, bounds of what is not free, a data set and a model that do not fit together, or
-            measurements that cannot carry a diagnosis.
+        BadInput: no free parameter, bounds of a parameter that is not free, a data set and a model that do not match,
+            or measurements that do not suffice for a diagnosis.
     """
     names = identifiable(model) if free is None else tuple(free)
     bounds, priors = bounds or {}, priors or {}
@@ -156,7 +156,7 @@ def session(
 
 
 def _withheld(dataset: Dataset) -> tuple[Dataset, Dataset | None]:
-    """What may be read, and what nothing looks at before the verdict; that as records to compare, never to fit."""
+    """The data set without its held-out logs (use "test"), and one of these alone; None if there are none."""
     unseen: list[MeasuredRecord] = [record for record in dataset.records if record.use == TEST]
     if not unseen:
         return dataset, None
@@ -165,10 +165,10 @@ def _withheld(dataset: Dataset) -> tuple[Dataset, Dataset | None]:
 
 
 def identifiable(model: Model) -> tuple[str, ...]:
-    """Parameters that the model gives min, max and nominal: what it says may differ from one unit to the next.
+    """Real parameters with min, max, nominal and start value: those that may differ between machines of one kind.
 
     Raises:
-        BadInput: there is none.
+        BadInput: the model has none.
     """
     found = tuple(
         v.name

@@ -1,4 +1,4 @@
-"""Which rivals are refitted beside a model, and from where."""
+"""Starts of refits: which effects and sensor errors are tried as the next step from a model, and from which values."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from pysim.types import Record
 
 @dataclass(frozen=True)
 class Starts:
-    """Starts beside one model.
+    """Starts of the refits that extend one model.
 
     Args:
-        beside: the model, compared by orbits (False) or by transients (True).
-        simulation: of the refits.
-        near: whether it leaves so little over the floor that first-order gains tell what a refit could gain.
+        beside: returns the model's fit, its stepped sines as orbits (False) or simulated over time (True).
+        simulation: solver settings of the refits.
+        near: whether its residual is so close to the noise floor that first-order gains bound what a refit can gain.
         settings: of the search.
     """
 
@@ -34,7 +34,7 @@ class Starts:
     _here: dict[bool, FinalFit] = field(default_factory=dict, init=False, repr=False)
 
     def here(self, transient: bool) -> FinalFit:
-        """The model as rivals are compared with it and simulated."""
+        """The model's fit, simulated with the settings of the refits."""
         if transient not in self._here:
             fit = self.beside(transient)
             if fit.simulation != self.simulation:
@@ -43,22 +43,22 @@ class Starts:
         return self._here[transient]
 
     def like(self, rival: FinalFit) -> FinalFit:
-        """The model compared and simulated as a rival is, which may have ended by finer simulations."""
+        """The model's fit to compare a rival with: in the same way, and with the same solver settings if available."""
         fit = self.beside(rival.candidate.transient)
         return fit if fit.simulation == rival.simulation else self.here(rival.candidate.transient)
 
     def runners(self, sizes: Sequence[Screened], sensors: Sequence[FinalFit], tried: int) -> list[Runner]:
-        """What is refitted, the most promising first; near the floor only what may pass the test of its gain.
+        """The rivals to refit, the most promising first; near the noise floor only those that could pass the F test.
 
         Args:
-            sizes: effects at every size, the best first.
-            sensors: the model with a sensor's error more, each.
-            tried: all that is looked at, for what chance could do.
+            sizes: effects as screened, at every size, the largest gain first.
+            sensors: the model with one more sensor error each.
+            tried: number of candidates, for the Bonferroni correction.
         """
         screened = best_of_each(sizes)
         found = [self._of_effect(one) for one in screened]
         found += [self._of_sensor(fit) for fit in sensors]
-        if not self.near:  # the model's parameters may be those of a wrong optimum
+        if not self.near:  # the model's parameters may be those of a local minimum
             return found + self._nearest(sizes)
         lefts = [rivals.of(self.beside(one.candidate.transient)) for one in screened]
         worth = [
@@ -74,7 +74,7 @@ class Starts:
         return [one for one, chance in zip(found, chances, strict=True) if chance < self.settings.false_alarm]
 
     def _nearest(self, sizes: Sequence[Screened]) -> list[Runner]:
-        """Effects that do not begin off, at the size nearest the measurements at the model's own parameters."""
+        """Further starts at the nominal parameters, of effects that do not start off: the size with the lowest cost."""
         best: dict[str, tuple[float, Candidate, Values]] = {}
         for one in sizes:
             name, candidate, values = one.effect.name, one.candidate, own_values(one)
@@ -86,7 +86,7 @@ class Starts:
         return [self._runner(candidate, values, math.inf) for _, candidate, values in best.values()]
 
     def _most(self, gain: float) -> float:
-        """Nats that a refit can gain at most."""
+        """Largest gain in nats that a refit can have, given its first-order gain; infinite far from the floor."""
         return self.settings.first_order_error * gain if self.near else math.inf
 
     def _runner(self, candidate: Candidate, values: Values, most: float) -> Runner:
@@ -94,29 +94,29 @@ class Starts:
         return Runner(start, self.here(candidate.transient).point.cost, most)
 
     def _of_effect(self, one: Screened) -> Runner:
-        """As good as off, beside the present model, whose slopes there tell how far to go; at the size that looked best
-        where off has no slopes."""
+        """Start with the effect practically off, where the Jacobian shows how far to go.
+        If off has no derivative, start at the size that was best in the screening."""
         start, most = one.start, self._most(one.gain)
         if start is None:
             return self._runner(one.candidate, one.values, most)
         return Runner(lambda: start, one.before, most, beside=True)
 
     def _of_sensor(self, fit: FinalFit) -> Runner:
-        """A sensor's error gains no more than it promises beyond what the model promises without it."""
+        """Start with a sensor error of 0; its first-order gain is what it promises beyond the model without it."""
         here = self.here(fit.candidate.transient)
         itself = begun(here.candidate, here.point, here.simulation, here.evaluate)
         return Runner(lambda: fit, here.point.cost, self._most(itself.expected - fit.expected), beside=True)
 
 
 def with_sensor_errors(present: FinalFit, models: Models) -> list[FinalFit]:
-    """The present model with one sensor's error more, each where the present model stands.
+    """The present model with one more sensor error each, at the present parameters.
 
-    An error that does the same as an effect is a tie with it. All share one simulation: they change no run.
+    A sensor error that explains as much as an effect is tied with it. All share one simulation, as they change no run.
     """
     own, point, simulation = present.candidate, present.point, present.simulation
     free = [one for one in _nuisances(models) if one not in own.nuisances]
     candidates = [models.of(own.effects, (*own.nuisances, one), transient=own.transient) for one in free]
-    if own.has_events:  # slopes are those of secants
+    if own.has_events:  # the Jacobian comes from secants
         return [begin(one, present.values, simulation, present) for one in candidates]
     found: list[FinalFit] = []
     answer = None
@@ -129,7 +129,7 @@ def with_sensor_errors(present: FinalFit, models: Models) -> list[FinalFit]:
 
 
 def _nuisances(models: Models) -> Iterator[Nuisance]:
-    """Gain, offset and delay of every signal that is compared over time or in stepped sines; drift with a clock."""
+    """Gain, offset and delay of every logged output; drift too, if the logs say when they began."""
     session = models.session
     settings, dataset = session.treatment.noise, session.dataset
     logs = [record for record in dataset.logs() if record.use == "fit" and isinstance(record.data, Record)]

@@ -1,9 +1,9 @@
-"""A tone that a residual holds: one line of a log's spectrum that stands out of those beside it.
+"""A tone in a residual: one line of a log's spectrum that stands out of the lines beside it.
 
-Noise of any colour has a spectrum that is level over a few lines. What turns with a shaft, or hums with the mains, has
-not.
+The spectrum of noise, of any colour, is nearly level over a few lines. A rotating shaft or the mains makes a line that
+stands out.
 
-Source: Fisher 1929, Proceedings of the Royal Society A 125:54, each line here against the lines beside it.
+Source: Fisher 1929, Proceedings of the Royal Society A 125:54; here each line is tested against the lines beside it.
 """
 
 from __future__ import annotations
@@ -24,11 +24,11 @@ _SETTINGS = ToneSettings()
 
 
 def tone(fit: FinalFit, dataset: Dataset, false_alarm: float) -> float | None:
-    """Frequency in Hz of the clearest tone in what a model leaves of the logs over time; None where there is none.
+    """Frequency in Hz of the most significant tone in a model's residuals of logs over time; None without a tone.
 
     Args:
-        dataset: that was fitted.
-        false_alarm: chance of finding one in noise.
+        dataset: the fitted data set.
+        false_alarm: chance of finding a tone in noise.
     """
     times = {record.source: record.data.time for record in dataset.records if isinstance(record.data, Record)}
     lines = [clearest(times[source], rest) for source, rests in logs(fit) for rest in rests.values()]
@@ -40,10 +40,10 @@ def tone(fit: FinalFit, dataset: Dataset, false_alarm: float) -> float | None:
 
 
 def clearest(times: Array, rest: Array) -> tuple[float, float] | None:
-    """The line that stands out most of a residual (n_t,): chance of it in noise, all lines counted, and Hz.
+    """The most significant spectral line of a residual (n_t,).
 
     Returns:
-        None where the log is too short, or its samples are not evenly spaced.
+        its p-value, corrected for the number of lines, and Hz; None for a short log or uneven sampling.
     """
     step = np.diff(times)
     lobe, worth = _SETTINGS.lobe, _SETTINGS.worth
@@ -52,7 +52,7 @@ def clearest(times: Array, rest: Array) -> tuple[float, float] | None:
         return None
     power = np.abs(np.fft.rfft((rest - rest.mean()) * np.hanning(rest.size))) ** 2
     beside = [np.roll(power, shift) for k in range(lobe + 1, far + 1) for shift in (k, -k)]
-    level = np.median(beside, axis=0) / math.log(2)  # the mean of an exponential law, from its median
+    level = np.median(beside, axis=0) / math.log(2)  # mean of an exponential distribution, from its median
     inner = slice(far, power.size - far)
     over = power[inner] / np.maximum(level[inner], np.finfo(float).tiny)
     line = int(np.argmax(over))

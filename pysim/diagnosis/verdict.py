@@ -1,4 +1,4 @@
-"""The verdict: effects in the order of what leaving each out costs, what is left, and whether anything is missing."""
+"""The verdict: effects in the order of what leaving each out costs, what is left, and whether the model is complete."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from pysim.types.fit import HALF_95
 
 
 def found_effects(found: Found, estimates: Sequence[Estimate], session: Session) -> tuple[FoundEffect, ...]:
-    """What is kept, the one that costs most to leave out first; sensor errors as effects at their signal."""
+    """The effects that are kept, the most costly to leave out first; sensor errors as effects at their signal."""
     candidate = found.final.candidate
     by_name = {one.name: one for one in estimates}
     avoidable = sum(test.gain for test in found.losses.values())
@@ -45,7 +45,7 @@ def found_effects(found: Found, estimates: Sequence[Estimate], session: Session)
 def _sensor(
     nuisance: Nuisance, size: float, loss: GainTest, share: float, final: FinalFit, session: Session
 ) -> FoundEffect:
-    """A sensor's error, its interval from what leaving it out costs (Wald)."""
+    """A sensor error as a found effect; its interval follows from what leaving it out costs (Wald)."""
     unit = session.dataset.signal(nuisance.signal).unit
     unit = {NuisanceKind.GAIN: "1", NuisanceKind.DELAY: "s", NuisanceKind.DRIFT: f"{unit}/s"}.get(nuisance.kind, unit)
     far = 100 * max(abs(size), nuisance.prior_sd)
@@ -58,17 +58,17 @@ def _sensor(
 
 
 def what_is_left(found: Found, follows: Follows | None, tone: float | None, last: ErrorStep) -> Left:
-    """Of the final model, whose step of the error history is the last."""
+    """What the final model leaves; `last` is its step of the error history."""
     floors = {f"{dataset}/{signal}": floor for (dataset, signal), floor in found.floors.floors.items()}
     share, t = (None, None) if follows is None else (follows.share, follows.t)
     return Left(floors, last.fit, last.validate, share, t, tone)
 
 
 def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorStep, settings: Settings) -> bool:
-    """Whether nothing but noise is left.
+    """Whether only noise is left.
 
-    No candidate passes its test, the residual does not follow the model's signals and holds no tone, and the error on
-    logs that were not fitted is within a few percent of that on those that were, or within the scatter of the two.
+    That is: no candidate is significant, the model's signals do not predict the residual, it has no tone, and the error
+    on validation logs exceeds that on fitted logs by a few percent at most, besides the scatter of the two.
     """
     if found.undecidable or found.more or left.tone is not None:
         return False
@@ -78,7 +78,7 @@ def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorSt
         scatter = math.hypot(*(_scatter(last.records, use) for use in ("fit", "validate")))
         if left.validate > settings.held_out * max(left.fit, 1.0) * math.exp(settings.follows_t * scatter):
             return False
-    if found.floors.within(found.final, settings.near):  # where regression is silent, it is all that tells of misfit
+    if found.floors.within(found.final, settings.near):  # the only sign of misfit if there is no regression
         return True
     return follows is not None and not hardly_explains(last, settings)
 
@@ -86,7 +86,7 @@ def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorSt
 def _scatter(records: Sequence[RecordFit], use: str) -> float:
     """Standard deviation of the logarithm of the root mean square residual of all records of one use.
 
-    A Gaussian residual of autocorrelations rho has n over the sum of rho^2 independent squares (Bartlett 1946).
+    Squares of n Gaussian residuals with autocorrelations rho are worth n / sum(rho^2) independent ones (Bartlett 1946).
     """
     own = [record.residual.values for record in records if record.use == use]
     columns = [rest[:, j : j + 1] for rest in own for j in range(rest.shape[1])]
@@ -98,7 +98,7 @@ def _scatter(records: Sequence[RecordFit], use: str) -> float:
 
 
 def hardly_explains(last: ErrorStep, settings: Settings) -> bool:
-    """Whether a signal is left with so large a residual that the model hardly describes it."""
+    """Whether the residual of some signal is so large that the model hardly describes the signal."""
     return any(
         float(np.std(record.measured.values[:, j] - record.simulated.values[:, j]))
         > settings.unexplained * float(np.std(record.measured.values[:, j]))
@@ -110,7 +110,7 @@ def hardly_explains(last: ErrorStep, settings: Settings) -> bool:
 
 
 def ranking(tables: Sequence[Table]) -> tuple[Rival, ...]:
-    """All that was tried, model by model, best first."""
+    """All candidates that were tried, model by model, best first; those only screened at the end."""
     rows: list[Rival] = []
     for one in tables:
         rows += [_row(one.names, rival, one.avoidable) for rival in one.rivals]
@@ -131,7 +131,7 @@ def _row(names: tuple[str, ...], one: Compared, avoidable: float) -> Rival:
 
 
 def ties(found: Found) -> tuple[tuple[str, ...], ...]:
-    """Groups of names that these data do not tell apart, of effects that are kept."""
+    """Groups of labels that these data do not separate, one for each part that is kept and tied."""
     kept = set(found.final.candidate.labels)
     return tuple(
         (step.added, *step.rivals[0].ties)
@@ -141,7 +141,7 @@ def ties(found: Found) -> tuple[tuple[str, ...], ...]:
 
 
 def notes_of(found: Found, estimates: Sequence[Estimate], refused: Mapping[str, str], session: Session) -> list[Note]:
-    """What a reader must know of the answer."""
+    """Notes on the answer: effects not tried, estimates at bounds, and what the intervals are conditional on."""
     notes = [Note(NoteCode.NOT_TRIED, {"effect": name, "reason": why}) for name, why in refused.items()]
     notes += [at_bound(one) for one in estimates if one.at]
     if found.final.names:
