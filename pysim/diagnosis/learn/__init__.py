@@ -1,1 +1,1 @@
-"""Laws that no catalogue has, learned from measurements: curves in a model's slots, their classes and formulas."""
+"""Learned laws, which no catalogue has: curves at a model's slots, fitted to measurements, as classes and formulas."""

@@ -1,7 +1,7 @@
-"""The curve of a law: where its knots stand, how smooth it is held, and how smooth the data want it.
+"""The curve of a law as a penalised spline: its knots, its smoothness penalty, and the weight of the penalty.
 
-Source: penalised splines with the weight of the penalty by restricted maximum likelihood: Wood 2011, Journal of the
-Royal Statistical Society B 73:3; its steps near an optimum Wood and Fasiolo 2017, Biometrics 73:1071.
+Source: weight by restricted maximum likelihood (REML): Wood 2011, Journal of the Royal Statistical Society B 73:3;
+its update near an optimum (Fellner-Schall): Wood and Fasiolo 2017, Biometrics 73:1071.
 """
 
 from __future__ import annotations
@@ -14,22 +14,22 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-# Quantiles of an argument between which a curve is drawn, and the share of the samples that has to lie on either side
-# of zero for zero to matter.
+# Quantiles of the argument between which the knots lie, and the share of samples on each side of zero above which the
+# knots become denser around zero.
 _RANGE, _BOTH = (0.002, 0.998), 0.05
-# Width of the arcsinh scale over the reach, and ratio of the ends from which on a scale of ratios is mixed in.
+# Width of the arcsinh scale over the largest value, and ratio of the ends above which equal ratios are mixed in.
 _ARCSINH, _DECADE = 0.05, 10.0
-# Weight of level and slope, in shares of what the data give a value: too little to matter where they tell something.
+# Penalty weight of level and slope, over the data's mean information on a value: only so that they are determined.
 _LEVEL = 1e-4
-# Weights of bends that are tried, in the same shares: from none to a straight line.
+# Smallest and largest penalty weight of the curvature that is tried, over the same: from free to a straight line.
 _LEAST, _MOST = 1e-9, 1e3
 
 
 def knots(z: Array, count: int) -> Array:
-    """Places (count,) for the knots of a curve over a variable's samples z (n,), increasing.
+    """Knots (count,), increasing, of a curve over a variable with samples z (n,).
 
-    Dense around zero by an arcsinh scale where z goes through it, since laws that change abruptly mostly do so there.
-    Over a variable that spans a decade or more they stand half way between even steps and equal ratios.
+    If z has both signs, the knots are dense around zero (arcsinh scale), since most abrupt laws change there. If z is
+    positive and spans a decade or more, the knots are the mean of even steps and equal ratios.
     """
     low, high = (float(end) for end in np.quantile(z, _RANGE))
     if not high - low > 1e-9 * max(abs(low), abs(high)):
@@ -43,7 +43,7 @@ def knots(z: Array, count: int) -> Array:
 
 
 def missed(k: Array, c: Array) -> Array:
-    """What straight lines may miss in each interval (m - 1,): an eighth of the curvature times the interval squared.
+    """Interpolation error of straight lines in each interval (m - 1,): curvature times interval squared over 8.
 
     Args:
         k: (m,) knots; c: (m,) values there.
@@ -56,9 +56,9 @@ def missed(k: Array, c: Array) -> Array:
 
 
 def closer(k: Array, c: Array) -> Array:
-    """Knots (2m - 1,): these (m,) and as many more as there are intervals, where straight lines miss most.
+    """Knots (2m - 1,): the given ones (m,), and one more per interval, but where the interpolation error is largest.
 
-    An interval that is halved misses a quarter in each half.
+    Each new knot halves an interval, which leaves a quarter of the error in each half.
     """
     edges, scores = k.tolist(), missed(k, c).tolist()
     for _ in range(k.size - 1):
@@ -69,7 +69,7 @@ def closer(k: Array, c: Array) -> Array:
 
 
 def bends(k: Array) -> Array:
-    """Rows (m - 2, m): change of slope at each inner knot, over its neighbourhood; none for a straight line."""
+    """Rows (m - 2, m) of second differences: the change of slope at each inner knot, times the mean interval there."""
     h = np.diff(k)
     rows, width = np.zeros((k.size - 2, k.size)), (h[1:] + h[:-1]) / 2
     inner = np.arange(k.size - 2)
@@ -79,17 +79,17 @@ def bends(k: Array) -> Array:
 
 
 def lines(k: Array) -> Array:
-    """Orthonormal columns (m, 2): level and slope."""
+    """Orthonormal columns (m, 2) that span the straight lines: level and slope."""
     return np.asarray(np.linalg.qr(np.column_stack([np.ones(k.size), (k - k.mean()) / np.ptp(k)]))[0])
 
 
 @dataclass(frozen=True)
 class Smoothness:
-    """The prior of a curve's coefficients, precision `bending * B'B + level * L L'`, in residuals over their level.
+    """Smoothness penalty: a Gaussian prior of a curve's coefficients with precision `bending * B'B + level * L L'`.
 
     Args:
         knots: (m,).
-        bending, level: weights, of the bends and of level and slope.
+        bending, level: weights of the second differences B (`bends`), and of level and slope L (`lines`).
     """
 
     knots: Array = field(repr=False)
@@ -98,21 +98,21 @@ class Smoothness:
 
     @property
     def rows(self) -> Array:
-        """(m, m) whose squares times coefficients are the penalty."""
+        """(m, m) matrix R, so that |R c|^2 is the penalty of coefficients c."""
         own = math.sqrt(self.bending) * bends(self.knots), math.sqrt(self.level) * lines(self.knots).T
         return np.vstack(own)
 
     @property
     def precision(self) -> Array:
-        """(m, m)."""
+        """(m, m) precision matrix of the prior."""
         return np.asarray(self.rows.T @ self.rows)
 
     def moved(self, gram: Array, c: Array) -> Smoothness:
-        """The weight of bends that suits the coefficients c (m,) at an optimum (Fellner-Schall step).
+        """The penalty with `bending` updated at an optimum with coefficients c (m,) (Fellner-Schall step).
 
         Args:
-            gram: (m, m) products of the slopes, by the coefficients, of the residual over its level, across what
-                parameters explain.
+            gram: (m, m) information of the data on the coefficients: J'J of the residual over its level, projected
+                off the model's parameters.
         """
         rough = bends(self.knots).T @ bends(self.knots)
         taken = self.bending * float(np.trace(np.linalg.solve(gram + self.precision, rough)))
@@ -121,19 +121,19 @@ class Smoothness:
         return replace(self, bending=float(np.clip(weight, _LEAST * typical, _MOST * typical)))
 
     def edf(self, gram: Array) -> float:
-        """How many coefficients the data determine."""
+        """Effective number of coefficients (effective degrees of freedom)."""
         return float(np.trace(np.linalg.solve(gram + self.precision, gram)))
 
 
 @dataclass(frozen=True)
 class Curve:
-    """The best curve to first order.
+    """The best curve of a linear regression.
 
     Args:
         values: (m,) coefficients.
-        smoothness: that the data want.
+        smoothness: the penalty, its weight by REML.
         edf: effective number of coefficients.
-        gram: (m, m) products of the columns that gave it.
+        gram: (m, m) information of the data on the coefficients.
     """
 
     values: Array
@@ -143,10 +143,10 @@ class Curve:
 
 
 def solve(gram: Array, right: Array, whole: float, n: float, k: Array) -> Curve:
-    """Coefficients c that minimise |r + A c|^2, smooth as far as the data do not say otherwise.
+    """Coefficients c that minimise |r + A c|^2 plus a smoothness penalty, whose weight REML chooses.
 
     Args:
-        gram, right, whole: A'A (m, m), A'r (m,) and r'r, of n rows across what refitting takes.
+        gram, right, whole: A'A (m, m), A'r (m,) and r'r of n rows, projected off the model's parameters.
         k: (m,) knots.
     """
     from scipy.optimize import minimize_scalar  # 0.3 s to import, where a law is learned

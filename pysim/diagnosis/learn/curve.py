@@ -1,4 +1,4 @@
-"""The curve of a learned law: straight between its knots but for rounded corners, constant beyond the ends."""
+"""The curve of a learned law: straight lines between knots, with rounded corners, and constant beyond the ends."""
 
 from __future__ import annotations
 
@@ -6,19 +6,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-ROUND = 0.25  # width of a corner over the shorter interval beside it
+ROUND = 0.25  # width of a rounded corner over the shorter interval beside it
 
 
 def widths(knots: Array) -> Array:
-    """Width of each corner, (m,), from the knots (m,)."""
+    """Width (m,) of the rounded corner at each of the knots (m,)."""
     steps = np.diff(knots)
     return np.asarray(ROUND * np.minimum(np.append(steps, np.inf), np.append(np.inf, steps)))
 
 
 def curve_basis(z: Array, knots: Array) -> Array:
-    """What each coefficient does: the curve at z (n,) is `curve_basis(z, knots) @ coefficients`, (n, m).
+    """Basis functions (n, m): the curve at z (n,) is `curve_basis(z, knots) @ coefficients`.
 
-    Each interval adds its slope times what the rounded ramps from its two ends differ by, so that the rows sum to 1.
+    Each interval adds its slope times the difference of the rounded ramps that begin at its two ends. Rows sum to 1.
     """
     away = np.asarray(z)[:, None] - knots
     ramps = 0.5 * (away + np.sqrt(away**2 + widths(knots) ** 2))
@@ -28,7 +28,7 @@ def curve_basis(z: Array, knots: Array) -> Array:
     return np.asarray(steps[:, :-1] - steps[:, 1:])
 
 
-# The same and its derivative as Modelica functions, to stand in a class.
+# The curve and its derivative as Modelica functions, for the class of a law.
 RAMP = """function ramp "0 below, s above, with a rounded corner in between"
     input Real s "Distance from the corner";
     input Real w "Width of the corner";

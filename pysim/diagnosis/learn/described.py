@@ -1,4 +1,4 @@
-"""A law that was fitted, or screened, as the answer has it: units, what the data tell of its curve, and where else."""
+"""Fitted and screened laws in the form of the answer: with units, uncertainty of the curve, and other places."""
 
 from __future__ import annotations
 
@@ -16,18 +16,17 @@ from pysim.types.fit import HALF_95
 
 Array = NDArray[np.float64]
 
-# A level or slope known no better than to this share of the curve is taken as one that the parameters absorb.
+# A level or slope whose standard deviation exceeds this share of the curve counts as absorbed by the parameters.
 _ABSORBED = 0.5
-# The band is that of a curve held smooth with this share of the weight that fits best, and counts what the rest may
-# have flattened: around the smoothest curve that fits it would be one of something smoother (Hall 1992, Annals of
-# Statistics 20:675).
+# The band is that of an undersmoothed curve, with this share of the best penalty weight, plus the bias of the rest. At
+# the full weight it would be a band of the smoothed law instead of the law (Hall 1992, Annals of Statistics 20:675).
 _UNDER = 0.1
-_SHOWN = 0.01  # share of what is missing below which a place is not worth a row
+_SHOWN = 0.01  # share of the avoidable sum of squares below which a place is left out
 
 
 @dataclass(frozen=True)
 class Known:
-    """What the data tell of a curve: covariance of its coefficients (m, m), and ways (m, k) that they leave open."""
+    """Covariance of a curve's coefficients (m, m), and its components (m, k) that the model's parameters absorb."""
 
     covariance: Array
     absorbed: Array
@@ -36,10 +35,10 @@ class Known:
 def answered(
     learning: Learning, held_out: tuple[float | None, float | None]
 ) -> tuple[tuple[LearnedLaw, ...], tuple[LearnedLaw, ...]]:
-    """The law that was kept, if one was, and of each place its best law, the likeliest place first.
+    """The law that was kept, if any, and the best law of each place, the place that explains most first.
 
     Args:
-        held_out: error of the logs that may choose before the last step and after it, which was the law that was kept.
+        held_out: error on validation logs without the law that was kept, and with it.
     """
     model, keys = learning.present.candidate.model, learning.present.candidate.space.keys
     laws: list[LearnedLaw] = []
@@ -85,7 +84,7 @@ def _with(law: LearnedLaw, known: Known, unit: float) -> LearnedLaw:
 
 
 def covariance_of(gram: Array, smooth: Smoothness, values: Array, inflated: float) -> Known:
-    """Covariance of a curve's coefficients, without the level or slope that the model's own parameters absorb."""
+    """Covariance of a curve's coefficients, without a level or slope that other parameter values replace (absorbed)."""
     k, m = smooth.knots, values.size
     rough = smooth.bending * bends(k).T @ bends(k)
     precision = gram + _UNDER * rough
@@ -103,7 +102,7 @@ def covariance_of(gram: Array, smooth: Smoothness, values: Array, inflated: floa
 
 
 def quotient(unit: str, by: str) -> str:
-    """A unit over another, as Modelica writes it: "N" over "m/s" is "N.s/m"."""
+    """Quotient of two units as Modelica writes it: "N" by "m/s" is "N.s/m"."""
     powers: dict[str, int] = {}
     for text, sign in ((unit, 1), (by, -1)):
         above, _, below = text.replace(" ", "").partition("/")

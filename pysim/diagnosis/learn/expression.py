@@ -1,4 +1,4 @@
-"""Expressions of one argument: their values, their derivatives, and kinks rounded so that they have one."""
+"""Expressions of one argument: values, derivatives, and kinks rounded so that the derivative exists."""
 
 from __future__ import annotations
 
@@ -18,18 +18,18 @@ _RANKS = {"+": 0, "-": 0, "*": 1, "/": 1, NEGATE: 1, "^": 2}
 
 
 def value(tree: Tree, known: Mapping[str, Any]) -> Any:
-    """Of a smooth expression, for numbers or arrays by name."""
+    """Value of a smooth expression; `known` gives numbers or arrays by name."""
     with np.errstate(all="ignore"):
         return evaluate(tree, known.__getitem__, _FUNCTIONS)
 
 
 def replaced(text: str, words: Mapping[str, str]) -> str:
-    """A text with other words in place of some of its names."""
+    """The text with some of its names replaced: `words` maps old names to new ones."""
     return re.sub(r"[A-Za-z_]\w*", lambda found: words.get(found[0], found[0]), text)
 
 
 def smooth(tree: Tree, kink: float) -> Tree:
-    """With kinks rounded: |z| as sqrt(z^2 + kink^2), and what follows from it."""
+    """The expression with kinks rounded: |z| as sqrt(z^2 + kink^2), and `sign`, `max`, `min` made of that."""
     if not isinstance(tree, Call):
         return tree
     given = tuple(smooth(one, kink) for one in tree.arguments)
@@ -62,7 +62,7 @@ _ZERO, _ONE = Number(0.0), Number(1.0)
 
 
 def derivative(tree: Tree, name: str) -> Tree:
-    """Of a smooth expression by one of its names."""
+    """Derivative of a smooth expression by one of its names."""
     if not isinstance(tree, Call):
         return _ONE if tree == Name(name) else _ZERO
     a, da = tree.arguments[0], derivative(tree.arguments[0], name)
@@ -88,7 +88,7 @@ def derivative(tree: Tree, name: str) -> Tree:
 
 
 def _simple(sign: str, a: Tree, b: Tree) -> Tree:
-    """An operation without zeros and ones that change nothing."""
+    """The operation, simplified where an operand is 0 or 1."""
     if (sign in "*/" and a == _ZERO) or (sign == "*" and b == _ZERO):
         return _ZERO
     if (sign == "*" and a == _ONE) or (sign == "+" and a == _ZERO):
@@ -102,7 +102,7 @@ def modelica(tree: Tree, above: int = 0) -> str:
     """A tree as Modelica text.
 
     Args:
-        above: rank of the operator around it; one of lower rank is put into brackets.
+        above: rank of the operator around the tree, which gets brackets if its own rank is lower.
     """
     match tree:
         case Number(value):

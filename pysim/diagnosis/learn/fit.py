@@ -1,4 +1,4 @@
-"""A law and every parameter of the model fitted together, the curve held smooth by a prior that the data weigh."""
+"""Refit of a law together with all parameters of the model; a prior with an estimated weight keeps the curve smooth."""
 
 from __future__ import annotations
 
@@ -22,20 +22,20 @@ from pysim.types import Estimate
 
 Array = NDArray[np.float64]
 
-# Rounds of smoothness at most, and the change of the effective size that ends them.
+# Updates of the smoothness at most, and the change of the effective number of coefficients that ends them.
 _ROUNDS, _SETTLED = 8, 0.1
 
 
 @dataclass(frozen=True)
 class LawFit:
-    """A law beside the model's parameters, refitted as far as it came.
+    """The refit of a law and the model's parameters, ended or not.
 
     Args:
-        law: which.
+        law: place, argument and factor of the law.
         knots: (m,).
-        unit: of the coefficients in the model's own units.
-        smoothness: the prior of the coefficients.
-        fit: the model; its last m numbers are the coefficients, in units.
+        unit: scale of the coefficients, in the model's units.
+        smoothness: prior of the coefficients.
+        fit: refit of the model; the last m search variables are the coefficients over `unit`.
     """
 
     law: Law
@@ -46,22 +46,22 @@ class LawFit:
 
     @property
     def values(self) -> Array:
-        """(m,) coefficients, in units."""
+        """(m,) coefficients over `unit`."""
         return self.fit.point.x[-self.knots.size :]
 
     @property
     def cost(self) -> float:
-        """Of the objective without the curve's prior, nats."""
+        """Cost without the curve's prior, nats."""
         return self.fit.point.cost - 0.5 * float(np.sum((self.smoothness.rows @ self.values) ** 2))
 
     def of_the_model(self, estimates: Sequence[Estimate]) -> tuple[Estimate, ...]:
-        """Without those of the curve's coefficients."""
+        """The estimates without those of the curve's coefficients."""
         own = self.law.place.coefficients(self.knots.size)
         return tuple(one for one in estimates if one.name not in own)
 
     @property
     def bare(self) -> Point:
-        """The point without the curve's prior."""
+        """The best point without the rows of the curve's prior."""
         point, rows = self.fit.point, self.fit.point.residual.size - len(self.smoothness.rows)
         return replace(
             point, cost=self.cost, residual=point.residual[:rows], jacobian=point.jacobian[:rows],
@@ -70,7 +70,7 @@ class LawFit:
 
     @property
     def gram(self) -> Array:
-        """(m, m) products of the residual's slopes by the coefficients, across what the parameters explain."""
+        """(m, m) information of the data on the coefficients, projected off the model's parameters."""
         bare, m = self.bare, self.knots.size
         without = replace(bare, x=bare.x[:-m], jacobian=bare.jacobian[:, :-m])
         table = Products.at(without, self.fit.candidate.residuals(self.fit.simulation))
@@ -79,14 +79,14 @@ class LawFit:
 
     @property
     def edf(self) -> float:
-        """How many coefficients the data determine."""
+        """Effective number of coefficients (effective degrees of freedom)."""
         return self.smoothness.edf(self.gram)
 
     @property
     def coarse(self) -> bool:
-        """Whether straight lines between the knots miss more than the data would forgive, by standard deviations.
+        """Whether straight lines between the knots miss more than a standard deviation of the coefficients.
 
-        A level and a slope, which the model's own parameters may absorb, miss nothing, however little is known of them.
+        Level and slope do not count: the model's parameters may absorb them, and straight lines represent them exactly.
         """
         line = lines(self.knots)
         keep = np.eye(self.knots.size) - line @ line.T
@@ -95,7 +95,7 @@ class LawFit:
 
 
 def penalised(point: Point, smoothness: Smoothness) -> Point:
-    """A point with the prior of its last numbers as rows of the residual."""
+    """The point with the prior of its last variables, the coefficients, as further rows of the residual."""
     if not point.good:
         return point
     rows = smoothness.rows
@@ -104,9 +104,9 @@ def penalised(point: Point, smoothness: Smoothness) -> Point:
 
 
 def begun(model: LawModel, ranked: Ranked, simulation: Simulation) -> LawFit:
-    """A law where the screening would have it, or with nothing of it where that is better."""
+    """Begin the refit of a law at the curve of the screening, or at zero if the screened curve raises the cost."""
     unit = ranked.size or ranked.unit
-    ratio = ranked.unit / unit  # of old units to new ones
+    ratio = ranked.unit / unit  # of the old scale to the new one
     smooth = ranked.curve.smoothness
     smooth = replace(smooth, bending=smooth.bending / ratio**2, level=smooth.level / ratio**2)
     x, values = model.present.point.x, ranked.curve.values * ratio
@@ -126,7 +126,7 @@ def started(
     simulation: Simulation,
     carried: Carried | None = None,
 ) -> LawFit:
-    """A law at a start x (n + m,): the model's parameters, then its coefficients in units."""
+    """Begin the refit of a law at x (n + m,): search variables of the model, then coefficients over `unit`."""
     names = law.place.coefficients(knots.size)
     candidate = model.candidate(law.settings(knots, unit), names, np.ones(knots.size), free=True)
     point = exact(candidate, simulation)(x, carried or model.present.point.carried)
@@ -142,7 +142,7 @@ def _beginning(
     bare: Point,
     simulation: Simulation,
 ) -> LawFit:
-    """Where a search begins, from its point without the curve's prior."""
+    """Begin a search at a point that was evaluated without the curve's prior."""
     precision = np.zeros((bare.x.size, bare.x.size))
     precision[-knots.size :, -knots.size :] = smoothness.precision
     candidate = replace(candidate, precision=precision, law=law.label)
@@ -157,7 +157,7 @@ def _beginning(
 
 
 def moved(one: LawFit, points: int) -> LawFit:
-    """So many points on, and then as smooth as the data ask for there."""
+    """Continue by at most `points` iterations, then update the smoothness."""
     if not one.fit.good:
         return one
     one = replace(one, fit=advance(one.fit, points))
@@ -165,12 +165,12 @@ def moved(one: LawFit, points: int) -> LawFit:
     found = _beginning(one.law, one.knots, one.unit, smooth, own.candidate, one.bare, own.simulation)
     if own.state.outcome is not None or found.fit.state.outcome is not None:
         return found
-    memory = {**own.state.memory, "expected": found.fit.state.memory["expected"]}  # steps as long as they were
+    memory = {**own.state.memory, "expected": found.fit.state.memory["expected"]}  # keeps the trust radius
     return replace(found, fit=replace(found.fit, state=replace(found.fit.state, memory=memory)))
 
 
 def settled(one: LawFit, points: int) -> LawFit:
-    """On until neither the search nor the smoothness moves any more, so many points between looks at the latter."""
+    """Alternate `points` iterations and an update of the smoothness until both have settled."""
     for _ in range(_ROUNDS):
         edf, cost = one.edf, one.fit.point.cost
         one = moved(one, points)
@@ -183,5 +183,5 @@ def settled(one: LawFit, points: int) -> LawFit:
 
 
 def ended(one: LawFit) -> LawFit:
-    """To the end of the search, as smooth as it is."""
+    """Continue to the end of the search with the smoothness held."""
     return replace(one, fit=advance(one.fit, GaussNewton().max_iterations))

@@ -1,7 +1,7 @@
 """A short expression for a learned curve: one or two of twenty shapes, by generalised least squares.
 
-A shape is first turned into the coefficients that a curve through the same knots would have for it, so that the curve's
-rounded corners and straight pieces do not count against it. Directions that the model's own parameters absorb are free.
+Each shape is first converted to the coefficients of a curve with the same knots, so that straight pieces and rounded
+corners do not count against it. Components that the model's own parameters absorb are free.
 """
 
 from __future__ import annotations
@@ -26,23 +26,23 @@ Array = NDArray[np.float64]
 
 _DENSE = 20  # points between two knots
 _KINK = 0.05  # rounding of a kink over the shortest interval
-_COARSE = 0.01  # of the curve's size: what the knots cannot show of a smooth law, as one standard deviation
-_WIDTHS = 12  # tried of each width
-_REFINED = 16  # of all shapes and pairs of shapes, the sizes of which are refined
-_ABSORBED = 1e-6  # share of a shape below which nothing of it is left beside others
-_SURE = 3.09  # standard deviations of one chance in a thousand
-_STEPS = 20
-REACH = 10.0  # bounds of an amount over its size
+_COARSE = 0.01  # standard deviation of what the knots cannot represent of a smooth law, over the curve's rms
+_WIDTHS = 12  # widths that are tried of each shape
+_REFINED = 16  # shapes and pairs of shapes whose widths are refined
+_ABSORBED = 1e-6  # share of a shape below which it counts as a combination of other columns
+_SURE = 3.09  # standard deviations of a normal distribution that are exceeded with a chance of 0.1 %
+_STEPS = 20  # golden-section steps
+REACH = 10.0  # bounds of an amount over its value
 
 
 @dataclass(frozen=True)
 class Shape:
-    """One kind of curve, of size 1.
+    """One kind of curve, which a formula multiplies by an amount.
 
     Args:
-        name: as people call it.
-        form: Modelica, of the argument z and, where it has a size of its own, of w.
-        power: of the argument's unit in it, as 2 for z^2; the amount's unit is that of the curve over it.
+        name: for readers.
+        form: Modelica expression of the argument z and, if the shape has a width or place, of w.
+        power: power of the argument's unit in it, such as 2 for z^2; needed for the unit of the amount.
         is_place: whether w is a place on the argument's axis, of either sign, rather than a width.
     """
 
@@ -86,13 +86,13 @@ class Formula:
 
     Args:
         shapes: names of its shapes.
-        expression: Modelica, of z and the parameters' names; sharp, as people write it.
-        parameters: amounts, 0 for off, and widths, with their values as defaults.
+        expression: Modelica expression of z and the parameters' names, with sharp kinks, for readers.
+        parameters: amounts, 0 for off, and widths or places, with their values as defaults.
         covariance: (k, k) of the parameters, in their order.
         kink: half width over which `abs`, `sign`, `min` and `max` are rounded, in the argument's unit.
-        absorbed: (a,) amounts of the directions that the model's own parameters absorb, in the curve's unit.
-        score: gain over no curve less the penalty, nats.
-        explained: share of the curve, in its own metric, 0 ... 1.
+        absorbed: (a,) amounts of the components that the model's own parameters absorb, in the curve's unit.
+        score: gain over a zero curve, less the penalty, nats.
+        explained: share of the curve's sum of squares, weighted by its covariance, 0 ... 1.
     """
 
     shapes: tuple[str, ...]
@@ -105,13 +105,13 @@ class Formula:
     explained: float
 
     def text(self, argument: str) -> str:
-        """With numbers in place of parameters: `1.2e+04 + 3.1e+07*x^2`."""
+        """The formula with numbers in place of parameters: `1.2e+04 + 3.1e+07*x^2`."""
         numbers = {p.name: f"{p.default:.3g}" if p.default >= 0 else f"({p.default:.3g})" for p in self.parameters}
         text = replaced(self.expression, {**numbers, "z": argument})
         return re.sub(r"(^| \+ )\(-([^()]*)\)", lambda found: ("-" if not found[1] else " - ") + found[2], text)
 
     def written(self, argument: str) -> str:
-        """Of the parameters' names, once differentiable: kinks are rounded."""
+        """Modelica text of the formula with the parameters' names; kinks are rounded, to be differentiable."""
         return modelica(smooth(parse(replaced(self.expression, {"z": argument})), self.kink))
 
     def slope(self, argument: str) -> str:
@@ -120,19 +120,19 @@ class Formula:
         return modelica(derivative(tree, argument))
 
     def __call__(self, z: Array, values: Mapping[str, float] = MappingProxyType({})) -> Array:
-        """The curve at some arguments, kinks rounded.
+        """The curve at arguments z, kinks rounded.
 
         Args:
-            values: of parameters, where they differ from those found.
+            values: of parameters, where they differ from their defaults.
         """
         known = {p.name: p.default for p in self.parameters} | dict(values) | {"z": np.asarray(z, dtype=float)}
         return np.asarray(value(smooth(parse(self.expression), self.kink), known) + 0 * known["z"])
 
 
 def formulas(law: LearnedLaw) -> tuple[Formula, ...]:
-    """All that describe the curve as well as its coefficients are known, best first; none for a curve of noise.
+    """Formulas that describe the curve within the uncertainty of its coefficients, best first; none for mere noise.
 
-    Source: generalised least squares; penalty of Schwarz 1978, Annals of Statistics 6:461, and of the number tried.
+    Source: generalised least squares; BIC (Schwarz 1978, Annals of Statistics 6:461) and a penalty of the number tried.
     """
     target = _Target(law)
     if not target.is_curve:
@@ -143,7 +143,7 @@ def formulas(law: LearnedLaw) -> tuple[Formula, ...]:
 
 
 class _Target:
-    """A learned curve in the metric of its covariance."""
+    """A learned curve, weighted by the inverse of its covariance."""
 
     def __init__(self, law: LearnedLaw) -> None:
         self._law = law
@@ -164,16 +164,16 @@ class _Target:
 
     @property
     def is_curve(self) -> bool:
-        """Whether it is more than noise beside what is absorbed."""
+        """Whether the curve is more than noise once the absorbed components are removed (chi-squared test)."""
         return self._df > 0 and self._alone > _chi_square(self._df)
 
     def describes(self, one: Formula) -> bool:
-        """Whether what the formula leaves is no more than the coefficients are known to."""
+        """Whether the formula leaves no more than the uncertainty of the coefficients (chi-squared test)."""
         left = (1 - one.explained) * self._alone
         return left <= _chi_square(max(self._df - len(one.parameters), 1))
 
     def starts(self) -> list[tuple[tuple[Shape, ...], Array]]:
-        """Every shape and every pair of shapes with the best sizes of a grid, in the order of their scores."""
+        """Every shape and every pair of shapes, with the best widths or places of a grid; the best score first."""
         grid = [(k, size) for k, shape in enumerate(SHAPES) for size in self._sizes(shape)]
         columns = self._white @ self._columns([SHAPES[k] for k, _ in grid], [size for _, size in grid])
         turned = np.linalg.qr(self._white @ self._free)[0]
@@ -200,7 +200,7 @@ class _Target:
         return 0.5 * df * math.log(max(self._df, 2)) + math.log(math.comb(len(SHAPES), len(shapes)))
 
     def fitted(self, shapes: tuple[Shape, ...], start: Array) -> Formula:
-        """Some shapes with the best sizes near those given, and their amounts."""
+        """The formula of some shapes: their widths or places refined from a start, their amounts, and the score."""
         sizes = self._refined(shapes, start)
         left, amounts = self._left(self._columns(shapes, sizes))
         own, absorbed = amounts[: len(shapes)], amounts[len(shapes) :]
@@ -216,7 +216,7 @@ class _Target:
         return Formula(names, expression, parameters, covariance, self._kink, absorbed, score, explained)
 
     def _sizes(self, shape: Shape) -> Array:
-        """Sizes to try, (k,); one that means nothing for a shape without one."""
+        """Widths or places to try, (k,); one nan for a shape without."""
         if not shape.sized:
             return np.array([math.nan])
         knots = self._law.knots
@@ -225,7 +225,7 @@ class _Target:
         return np.geomspace(0.25 * np.min(np.diff(knots)), np.max(np.abs(knots)), _WIDTHS)
 
     def _columns(self, shapes: Sequence[Shape], sizes: Any) -> Array:
-        """The coefficients of each shape, (m, len(shapes)), for a size each."""
+        """Curve coefficients of each shape, (m, len(shapes)); `sizes` holds a width or place for each."""
         curves = [
             value(smooth(parse(shape.form), self._kink), {"z": self._dense, "w": float(size)}) + 0 * self._dense
             for shape, size in zip(shapes, sizes, strict=True)
@@ -233,9 +233,9 @@ class _Target:
         return np.asarray(self._to_knots @ np.column_stack(curves))
 
     def _left(self, columns: Array) -> tuple[float, Array]:
-        """Sum of squares left, and the amounts of the columns and of what is absorbed.
+        """Weighted sum of squares that is left, and the amounts of the columns and of the absorbed components.
 
-        A column that what is absorbed makes up as well, or that others do, gets nothing.
+        Linearly dependent columns share their amount, by the least-squares solution of minimum norm.
         """
         design = self._white @ np.hstack([columns, self._free])
         lengths = np.linalg.norm(design, axis=0)
@@ -244,7 +244,7 @@ class _Target:
         return float(np.sum((self._values - design @ amounts) ** 2)), np.asarray(amounts)
 
     def _refined(self, shapes: tuple[Shape, ...], sizes: Array) -> Array:
-        """Sizes between those of the grid: golden-section steps, one after the other."""
+        """Widths or places refined between neighbours on the grid, one after the other, by golden-section search."""
         ratio = (math.sqrt(5) - 1) / 2
         for k in [k for k, shape in enumerate(shapes) if shape.sized] * (1 if len(shapes) == 1 else 3):
             grid = self._sizes(shapes[k])
@@ -258,7 +258,7 @@ class _Target:
         return sizes
 
     def _jacobian(self, shapes: tuple[Shape, ...], sizes: Array, own: Array) -> Array:
-        """Of the whitened curve by amounts and sizes, in the parameters' order, then by what is absorbed."""
+        """Jacobian of the weighted curve by amounts and widths, in the parameters' order, then by what is absorbed."""
         columns = []
         for k, shape in enumerate(shapes):
             columns.append(self._columns((shape,), sizes[k : k + 1])[:, 0])
@@ -269,7 +269,7 @@ class _Target:
         return np.asarray(self._white @ np.hstack([np.column_stack(columns), self._free]))
 
     def _written(self, shapes: tuple[Shape, ...], own: Array, sizes: Array) -> tuple[str, tuple[EffectParameter, ...]]:
-        """The expression of the parameters' names, and these."""
+        """The Modelica expression of the formula, and its parameters."""
         unit, argument = self._law.unit or "1", self._law.argument_unit or "1"
         terms, parameters = [], []
         for k, (shape, amount, size) in enumerate(zip(shapes, own, sizes, strict=True), start=1):
@@ -287,7 +287,7 @@ class _Target:
 
 
 def rounded_up(value: float) -> float:
-    """A size to one digit; 1 for nothing."""
+    """Absolute value, rounded up to one digit; 1 for zero."""
     if value == 0:
         return 1.0
     power = 10.0 ** math.floor(math.log10(abs(value)))
@@ -299,8 +299,8 @@ def _shortened(value: float) -> float:
 
 
 def _over(unit: str, argument: str, power: float) -> str:
-    """The unit of an amount: that of the curve over a power of the argument's, in the symbols of both."""
-    if power != int(power):  # a root, which no unit of SI is written with
+    """Unit of an amount: the curve's unit over a power of the argument's unit, made of their symbols."""
+    if power != int(power):  # a root, which SI units cannot express
         return "1"
     powers = _symbols(unit)
     for symbol, exponent in _symbols(argument).items():
@@ -314,7 +314,7 @@ def _over(unit: str, argument: str, power: float) -> str:
 
 
 def _symbols(unit: str) -> dict[str, int]:
-    """`N.s2/(m.Pa)` -> N: 1, s: 2, m: -1, Pa: -1."""
+    """Powers of a unit's symbols: `N.s2/(m.Pa)` -> N: 1, s: 2, m: -1, Pa: -1."""
     found: dict[str, int] = {}
     above, _, below = unit.partition("/")
     for part, sign in ((above, 1), (below.strip("()"), -1)):
@@ -324,7 +324,7 @@ def _symbols(unit: str) -> dict[str, int]:
 
 
 def _chi_square(df: int) -> float:
-    """The value that one chance in a thousand exceeds.
+    """The 99.9 % quantile of the chi-squared distribution.
 
     Source: Wilson and Hilferty 1931, PNAS 17:684.
     """
