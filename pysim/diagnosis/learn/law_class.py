@@ -1,4 +1,4 @@
-"""A learned law as a Modelica class that fills its slot: what the slot had, and `factor*h(argument)` added to it."""
+"""A learned law as a Modelica class that fills its slot: the slot's own equations with `factor*h(argument)` added."""
 
 from __future__ import annotations
 
@@ -35,25 +35,25 @@ def law_class(
     formula: Formula | None = None,
     inner: Effect | None = None,
 ) -> str:
-    """The class of a learned law, to be put into a file of its own and named as a library.
+    """Text of the Modelica class of a learned law, to be saved as a file and named as a library.
 
-    The coefficients are parameters `c[1]` ... `c[m]`, as learned, with 0 for off; with a formula its amounts are.
-    Beyond the first and last knot the curve is constant. A signal that the slot does not offer becomes an input, which
-    `pysim.effects.variant` binds.
+    Its parameters are the coefficients `c[1]` ... `c[m]`, with the learned values as defaults and 0 for off, or the
+    amounts and widths of a formula. Beyond the first and last knot the curve is constant. A signal that the slot does
+    not have becomes an input, which `pysim.effects.variant` connects.
 
     Args:
-        law: factor and argument name what the slot offers, `v` or `SLOT.v`, or any other signal of the model, or
-            `time`. A factor is "" for 1, or an expression: `v`, `sign(v)`, which is smooth, `bristle(v, 5e-4)`, the
-            memory of dry friction with a bristle of this length, or `cos(151.8*time)`. Where the slot gives several
-            variables of one kind, `q1` and `q2`, each gets the same curve, over `p2` where the argument is `p1`.
-        slot: that it fills; `pysim.effects.slots` reads them from a model.
+        law: its factor and argument are variables of the slot, `v` or `SLOT.v`, other signals of the model, or `time`.
+            The factor is "" for 1, or an expression: `v`; `sign(v)`, which is smoothed; `bristle(v, 5e-4)`, the state
+            of a Dahl friction with this bristle length; `cos(151.8*time)`. If the slot gives several variables of
+            one kind, `q1` and `q2`, each gets the same curve: over `p1` for `q1`, and over `p2` for `q2`.
+        slot: the slot that it fills, as `pysim.effects.slots` reads it from a model.
         name: of the class.
-        libraries: where the slot's filling and its partial class are.
-        effect: its name in the catalogue; "" for a class that is no candidate of a diagnosis.
-        formula: in place of the table; of `formula.formulas(law)`.
-        inner: effect in the same slot that becomes part of the class, with its parameters; a slot takes one class.
+        libraries: contain the slot's present class and its partial class.
+        effect: its name in the catalogue; "" for a class that a diagnosis does not try.
+        formula: takes the place of the curve, see `formula.formulas`.
+        inner: an effect in the same slot, which becomes part of the class, since a slot takes one class only.
     Raises:
-        BadInput: a slot whose filling does not give its variable by an equation `y = ...`, or units that do not fit.
+        BadInput: the slot's class does not give its variable by an equation `y = ...`, or units do not match.
     """
     slot = slot if inner is None else replace(slot, filling=inner.class_name)
     parts = filling(slot, libraries, final=inner is None)
@@ -84,12 +84,12 @@ def law_class(
 
 @dataclass(frozen=True)
 class _Side:
-    """One variable that the slot gives.
+    """One variable that the slot's class computes, such as `q1` of a slot with `q1` and `q2`.
 
     Args:
-        output: the variable.
-        rate: the variable that is its derivative; "" where the slot gives none.
-        tags: end of the first side's names, and of this side's.
+        output: name of the variable.
+        rate: name of its derivative; "" if the slot has none.
+        tags: suffix of the names of the first side, and of this side, such as "1" and "2".
     """
 
     output: str
@@ -98,7 +98,7 @@ class _Side:
 
 
 def _sides(slot: Slot, parts: Filling) -> list[_Side]:
-    """What the filling gives by equations, a variable and its rate as one."""
+    """The variables that the slot's class computes by equations; a variable and its rate make one side."""
     given = [left for left, _ in parts.equations if left in slot.gives]
     outputs = [one for one in given if not (one.endswith("_t") and one[:-2] in given)]
     kinds = {re.sub(r"(\d+|_\w)$", "", one) for one in outputs}
@@ -130,7 +130,7 @@ class _Writer:
         self._check()
 
     def _local(self, name: str) -> str:
-        """Of the slot's variable, or of the input that a signal of the model becomes."""
+        """Local name of a variable of the slot, or of the input that another signal of the model becomes."""
         own = name.removeprefix(f"{self._slot.name}.")
         if own in self._units or own == "time":
             return own
@@ -140,7 +140,7 @@ class _Writer:
         return local
 
     def _expression(self, factor: str) -> str:
-        """The factor with local names, smooth signs and the names of bristles; "" for 1."""
+        """The factor with local names, smooth signs, and bristle states for `bristle(...)`; "" for 1."""
         if not factor:
             return ""
         try:
@@ -162,7 +162,7 @@ class _Writer:
         return f"{speed}_bristle"
 
     def _check(self) -> None:
-        """The unit of the curve times that of the factor is the slot's; units that are not SI are not looked at."""
+        """Raise BadInput unless the curve's unit times the factor's is the slot's; units that are not SI pass."""
         law, slot = self._law, self._slot
         bristles = {f"{speed}_bristle": "1" for speed in self._bristles}
         known = {**self._units, **dict.fromkeys(self._outside), **bristles, "time": None}
@@ -184,7 +184,7 @@ class _Writer:
             )
 
     def _on(self, side: _Side, text: str) -> str:
-        """An expression of the first side's variables with those of another side."""
+        """The expression, with the variables of the first side replaced by those of another side."""
         old, new = side.tags
         if old == new:
             return text
@@ -204,13 +204,13 @@ class _Writer:
         return f"{function}({self.argument}, {self._knots}, {self._widths}, c)"
 
     def term(self, side: _Side) -> str:
-        """What is added to a side's variable."""
+        """The expression that is added to a side's variable."""
         curve = self._curve()
         factor = self._factor if re.fullmatch(r"[\w.]+|tanh\([^()]*\)", self._factor) else f"({self._factor})"
         return self._on(side, f"{curve}*{factor}" if self._factor else curve)
 
     def rate(self, side: _Side) -> str:
-        """Its derivative by time."""
+        """Time derivative of the term; raises BadInput if the slot lacks a rate that it needs."""
         argument, factor = f"{self.argument}_t", f"{self._factor}_t"
         known = argument in self._units or self.argument == "time"
         if not known or (self._factor and factor not in self._units):
@@ -224,7 +224,7 @@ class _Writer:
         return self._on(side, f"{slope}*{self._factor} + {self._curve()}*{factor}")
 
     def declarations(self) -> list[str]:
-        """Inputs, and parameters as `read_catalogue` reads them."""
+        """Declarations of inputs, bristle states, and parameters in the form that `read_catalogue` reads."""
         found = []
         for local, signal in self._outside.items():
             unit = f'(unit="{self._law.argument_unit}")' if local == self.argument else ""
@@ -247,14 +247,14 @@ class _Writer:
 
     @property
     def equations(self) -> list[str]:
-        """Of what remembers."""
+        """Differential equations of the bristle states (Dahl 1968)."""
         return [
             f"{speed}_length*der({speed}_bristle) = {speed} - noEvent(abs({speed}))*{speed}_bristle"
             for speed in self._bristles
         ]
 
     def protected(self, rates: bool) -> list[str]:
-        """Knots and widths of the curve, and the functions that give it."""
+        """Constants and functions of the curve: knots, widths of corners, and `slope` if there are `rates`."""
         if self._formula is not None:
             return []
         knots, unit = self._law.knots, self._law.argument_unit or "1"

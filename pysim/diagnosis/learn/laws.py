@@ -1,14 +1,13 @@
-"""Which laws may be missing where, and what is compiled for them.
+"""Which laws may be missing at which places of a model, and the Modelica text that is compiled to try them.
 
-A law is `factor*h(argument)`, added to what a slot gives. h is the curve of `curve.py`: straight between its knots but
-for rounded corners, constant beyond them. `argument` is a variable of the slot ("force.x") or of the model, or `time`
-on the clock of all records; `factor` is "" for 1, "v" for a variable of the slot by its own name there, "sign(v)" for a
-smooth sign. In a slot with two sides, `q1` over `p1` and `q2` over `p2`, both have the same curve; the law is named by
-its first side.
+A law is `factor*h(argument)`, added to a variable that a slot computes. h is the curve of `curve.py`. The argument is a
+variable of the slot ("force.x"), another variable of the model, or `time` on the common clock of all records. The
+factor is "" for 1, "v" for a variable of the slot, or "sign(v)" for its smooth sign. If a slot has two sides, `q1` over
+`p1` and `q2` over `p2`, both get the same curve, and the law has the names of the first side.
 
-One model is compiled for each place. Parameters of it choose argument and factor by weights, 1 of the chosen and 0 of
-the others, and hold knots and coefficients: no law and no other set of knots has to be compiled again. (Slopes by the
-coefficients cost ten times as much in one model with terms at all places.)
+One model is compiled for each place. Its parameters choose argument and factor by weights (1 for the chosen one, 0 for
+the others), and hold knots and coefficients, so that another law or other knots need no new compilation. One model with
+terms at all places would make derivatives by the coefficients ten times as expensive.
 """
 
 from __future__ import annotations
@@ -27,11 +26,11 @@ from pysim.types import Model
 
 Array = NDArray[np.float64]
 
-TIME = "time"  # of the model, which is that of the clock of all records
+TIME = "time"  # of the model, which runs on the common clock of all records
 
 
 class Term(Protocol):
-    """What can be compiled beside a model."""
+    """Text that can be compiled into a model."""
 
     @property
     def text(self) -> str:
@@ -40,24 +39,24 @@ class Term(Protocol):
 
     @property
     def probes(self) -> tuple[str, ...]:
-        """What is added to which equation, as `fmu_build.build(probes=...)` takes it."""
+        """Which variable is added to which equation, in the form of `fmu_build.build(probes=...)`."""
         ...
 
 
 def wrapped(base: str, term: Term, name: str) -> str:
-    """The class to compile: the model and terms beside it."""
+    """Modelica text of a class that extends the model `base` by a term."""
     return f'model {name} "{base} with a law more"\n  extends {base};\n{term.text}end {name};\n'
 
 
 @dataclass(frozen=True)
 class Side:
-    """One variable that a place gives.
+    """One variable of a place that a law is added to.
 
     Args:
-        output: the variable; a term in its derivative's equation where it is a state.
-        output_rate: the variable that needs the term's rate; "" where none does.
-        own: variables that this side sees, by their full names, in the order of the place's.
-        rates: of these, "" where the model has none.
+        output: the variable; if it is a state, the law is added to its derivative.
+        output_rate: variable to which the law's time derivative is added; "" if there is none.
+        own: full names of the slot's variables for this side, which laws may depend on; the same order on all sides.
+        rates: their time derivatives, "" where the model has none.
     """
 
     output: str
@@ -68,13 +67,13 @@ class Side:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a law may stand.
+    """A place in the model where a law may be added.
 
     Args:
         name: of the slot, or "der(STATE)" in a model without slots.
-        key: what its parameters' names begin with.
-        sides: that share one law.
-        outside: other variables of the model that it may depend on.
+        key: prefix of the names of its parameters.
+        sides: variables that get the same law.
+        outside: variables outside the slot that the law may depend on.
     """
 
     name: str
@@ -84,11 +83,11 @@ class Place:
 
     @property
     def arguments(self) -> tuple[str, ...]:
-        """What laws may depend on, the first side's variables first."""
+        """Variables that laws may depend on: those of the first side, then those outside the slot."""
         return (*self.sides[0].own, *self.outside)
 
     def laws(self) -> Iterator[Law]:
-        """All that may stand here; a factor is never the argument itself, which the curve alone can do."""
+        """All laws of this place. The factor is never the argument itself, since the curve alone can represent that."""
         for i in range(len(self.arguments)):
             yield Law(self, i)
         if self.sides[0].output_rate:
@@ -106,14 +105,14 @@ class Place:
 
 @dataclass(frozen=True)
 class Law:
-    """One law.
+    """One law: a place, an argument and a factor.
 
     Args:
-        place: where it stands.
-        chosen: number of its argument among the place's.
-        by: number of its factor among the variables of the place's own; None for the factor 1.
-        is_sign: whether the sign of that is the factor.
-        width: within which the sign changes, in the variable's unit.
+        place: where it is added.
+        chosen: index of its argument in `place.arguments`.
+        by: index of its factor in `own` of each side; None for the factor 1.
+        is_sign: whether the factor is the smooth sign of that variable.
+        width: over which the smooth sign changes, in the variable's unit.
     """
 
     place: Place
@@ -124,12 +123,12 @@ class Law:
 
     @property
     def argument(self) -> str:
-        """Name of the variable, the first side's."""
+        """Name of the argument on the first side."""
         return self.place.arguments[self.chosen]
 
     @property
     def factor(self) -> str:
-        """As `LearnedLaw` has it."""
+        """The factor in the form of `LearnedLaw`."""
         if self.by is None:
             return ""
         name = self.place.sides[0].own[self.by].removeprefix(f"{self.place.name}.")
@@ -137,16 +136,16 @@ class Law:
 
     @property
     def label(self) -> str:
-        """As people read it."""
+        """The law as text, such as "force: sign(v) * h(force.x)"."""
         return f"{self.place.name}: {self.factor + ' * ' if self.factor else ''}h({self.argument})"
 
     def seen(self, side: Side) -> tuple[str, str]:
-        """Argument and factor of one side, by their full names; "" for the factor 1."""
+        """Full names of argument and factor on one side; "" for the factor 1."""
         argument = (*side.own, *self.place.outside)[self.chosen]
         return argument, "" if self.by is None else side.own[self.by]
 
     def settings(self, knots: Array, unit: float = 1.0) -> dict[str, float]:
-        """Parameters that make the compiled term this law: knots (m,), and the unit of its coefficients."""
+        """Parameter values that turn the compiled term into this law, with knots (m,); `unit` scales coefficients."""
         key, wide = self.place.key, widths(knots)
         found = {f"{key}_u": unit}
         found |= {f"{key}_a{i}": float(i == self.chosen) for i in range(len(self.place.arguments))}
@@ -162,11 +161,11 @@ class Law:
 
 @dataclass(frozen=True)
 class Terms:
-    """Terms at some places, all of them off until their parameters say otherwise.
+    """Terms at some places, off until their parameters are set.
 
     Args:
-        places: each with a term.
-        count: knots of each curve.
+        places: get one term each.
+        count: number of knots of each curve.
     """
 
     places: tuple[Place, ...]
@@ -218,7 +217,7 @@ class Terms:
 
 
 def _turns(key: str, count: int) -> Iterator[tuple[str, str, str]]:
-    """Of each knot: its name, the width of its corner, and the change of slope there."""
+    """For each knot the Modelica text of its position, of its corner's width, and of the change of slope there."""
     rises = [f"({key}_c{i + 1} - {key}_c{i})/({key}_k{i + 1} - {key}_k{i})" for i in range(1, count)]
     for i in range(count):
         before, after = (rises[i - 1] if i else ""), (rises[i] if i < count - 1 else "")
@@ -238,7 +237,7 @@ def _slope(key: str, z: str, count: int) -> str:
 
 
 def places(slots: Sequence[Slot], model: Model) -> tuple[Place, ...]:
-    """Where a law may stand: the slots, or the states' equations of a model that has none."""
+    """Places where a law may be added: the slots, or the derivatives of the states if the model has no slots."""
     known = {variable.name for variable in model.variables}
     if not slots:
         return tuple(_of_state(k, model) for k in range(len(model.abilities.states)))
@@ -261,7 +260,7 @@ def _of_state(k: int, model: Model) -> Place:
 
 
 def _outside(slots: Sequence[Slot], model: Model, sides: Sequence[Side]) -> tuple[str, ...]:
-    """Time, inputs, and states that are not some slot's own memory: none answers to a term at once."""
+    """Time, inputs, and states outside all slots: a law over these makes no algebraic loop."""
     inner = tuple(f"{slot.name}." for slot in slots)
     states = [name for name in model.abilities.states if not name.startswith(inner)]
     own = {name for side in sides for name in side.own}
@@ -269,13 +268,13 @@ def _outside(slots: Sequence[Slot], model: Model, sides: Sequence[Side]) -> tupl
 
 
 def _inputs(model: Model) -> tuple[str, ...]:
-    """Without those that are rates of others."""
+    """Inputs of the model without those that are rates of other inputs."""
     names = [v.name for v in model.variables if v.causality == "input"]
     return tuple(name for name in names if not _rate_of(name, names))
 
 
 def _sides(slot: Slot, known: set[str], states: set[str]) -> tuple[Side, ...]:
-    """What a slot gives beside what it sees."""
+    """Sides of a slot: each variable that its class computes, with the variables that a law there may depend on."""
 
     def full(name: str) -> str:
         return f"{slot.name}.{name}" if f"{slot.name}.{name}" in known else ""
@@ -287,7 +286,7 @@ def _sides(slot: Slot, known: set[str], states: set[str]) -> tuple[Side, ...]:
         return tuple(Side(full(y), "", tuple(map(full, own)), ("",) * len(own)) for y, own in pairs)
     moving = [v for v in slot.gives if full(v) in states]
     free = [v for v in slot.gives if full(v) and full(v) not in states]
-    if moving and free:  # it moves by itself: what drives it, by how it moves and what it follows
+    if moving and free:  # the slot holds a state: the law is added to what drives the state
         own = [*moving, *sees]
         return (Side(full(free[-1]), "", tuple(map(full, own)), ("",) * len(own)),)
     if not outputs or not full(outputs[0]):
@@ -306,9 +305,9 @@ def _rate_of(name: str, names: Sequence[str]) -> bool:
 
 
 def _numbered(outputs: Sequence[str], sees: Sequence[str]) -> list[tuple[str, list[str]]]:
-    """Outputs and what they see by the side they stand for, where a slot has two or more sides with the same law.
+    """Outputs of a slot with several sides, each with the variables of its side; empty for any other slot.
 
-    A side is a number, `q1`, or a letter behind a line, `q_s`.
+    A side is marked by a number, `q1`, or by an underscore and a letter, `q_s`.
     """
     bare = {re.sub(r"(\d+|_[A-Za-z])$", "", y) for y in outputs}
     numbers = [re.search(r"(\d+|_[A-Za-z])$", y) for y in outputs]
@@ -322,7 +321,7 @@ def _numbered(outputs: Sequence[str], sees: Sequence[str]) -> list[tuple[str, li
 
 
 def samples(law: Law, seen: Mapping[str, Array]) -> tuple[Array, Array]:
-    """Argument and factor (n,) of a law's sides one after the other, from samples of the model's variables."""
+    """Samples (n,) of a law's argument and factor, all sides concatenated, from those of the model's variables."""
     z, by = [], []
     for side in law.place.sides:
         argument, factor = law.seen(side)

@@ -1,4 +1,4 @@
-"""Learn a law that no catalogue has: screen all of them, refit the best, keep the winner if it stands the test."""
+"""Learn a law that no catalogue has: screen all laws, refit the best ones, keep the winner if it passes its test."""
 
 from __future__ import annotations
 
@@ -23,22 +23,22 @@ from pysim.types import BadInput
 from pysim.types.answer import GainTest, Verdict
 
 Say = Callable[[str], None]
-# A smaller model, a larger one and the test of its gain -> the test as logs and blocks that were not fitted see it.
+# A smaller model, a larger one and the test of its gain -> the test with vetoes by validation logs and left-out blocks.
 Veto = Callable[[FinalFit, FinalFit, GainTest], GainTest]
 
 
 @dataclass(frozen=True)
 class Learning:
-    """What learning beside one model came to.
+    """The result of learning a law beside one model.
 
     Args:
-        present: the model that lacked something.
-        ranked: every law to first order, the best first.
-        fits: laws that were refitted, the best first.
-        test: of the best of them; None where none was refitted.
-        shares: of each of these fits, of the sum of squares over the floors that could be avoided, 0 ... 1.
-        alternatives: other places whose laws the data do not tell from the best.
-        inflated: lambda of the best.
+        present: the model that lacks something.
+        ranked: every law as it was screened to first order, the best first.
+        fits: refitted laws, the best first.
+        test: of the best one; None if none was refitted.
+        shares: share of each refitted law in the avoidable sum of squares, 0 ... 1.
+        alternatives: other places whose laws the data do not separate from the best one.
+        inflated: lambda of the best law's gain.
         refused: place -> why no law could be tried there.
     """
 
@@ -53,12 +53,12 @@ class Learning:
 
     @property
     def law(self) -> LawFit | None:
-        """The one that stood the test; None where nothing is added."""
+        """The best law if it passed its test; else None."""
         return self.fits[0] if self.test is not None and self.test.verdict is Verdict.BETTER else None
 
     @property
     def worth(self) -> float:
-        """Penalised gain of that law, nats; minus infinity without one."""
+        """Penalised gain of that law, nats; minus infinity if there is none."""
         return self.test.penalised if self.test is not None and self.law is not None else -math.inf
 
 
@@ -66,12 +66,12 @@ class Learner:
     """Learns laws beside one model.
 
     Args:
-        session: whose model; it must be able to compile laws.
-        present: the model that lacks something, refitted; laws over time are tried where it is compared by transients.
-        floors: noise of each channel.
-        tried: effects that were tried before, which count as choices.
+        session: gives the places and compiles the laws (`build_law`).
+        present: the refitted model that lacks something; only if it is transient, laws over time are tried.
+        floors: noise floor of each channel.
+        tried: number of effects tried before, for the Bonferroni correction.
         veto: see Veto.
-        say: gets what is being done.
+        say: called with what is being done.
     """
 
     def __init__(
@@ -92,7 +92,7 @@ class Learner:
         self._rough = floors.roughest(present, session.settings.fine)
 
     def learn(self) -> Learning:
-        """The best law and whether it is kept."""
+        """Screen all laws, refit the best ones, and test the winner."""
         if not self._rough.good:
             return Learning(self._present, ())
         where = places(self._session.slots, self._session.model)
@@ -131,7 +131,7 @@ class Learner:
         return LawModel(place, count, self._rough, model)
 
     def _raced(self, chosen: Sequence[tuple[LawModel, Ranked]]) -> list[LawFit]:
-        """The laws some points on with every parameter, those that promise most some more; the best first."""
+        """Refit the laws for some iterations, and the finalists for some more; the best first."""
         running: list[tuple[LawModel, LawFit]] = []
         for model, one in chosen:
             self._say(f"refitting {one.law.label}")
@@ -145,7 +145,7 @@ class Learner:
         return sorted(fits, key=self._scored)
 
     def _scored(self, one: LawFit) -> float:
-        """Cost with the penalty of the effective coefficients, nats."""
+        """Penalised cost relative to the present model, nats; the lowest is best."""
         inflated, count = self._colour(one, self._rough), rivals.samples(self._rough)
         return -rivals.penalised(self._rough.point.cost - one.cost, one.edf, inflated, count)
 
@@ -155,9 +155,9 @@ class Learner:
         return rivals.effective(left, rivals.of(present).residual - left.residual)
 
     def _finished(self, one: LawFit, model: LawModel) -> LawFit:
-        """To the end, with twice the knots as long as the data see the corners and the law gets better by it.
+        """Refit a law to the end; double its knots as long as the data resolve the corners and the law gets better.
 
-        The last search alone takes the runs of what is kept.
+        Only the last refit has the solver settings of models that are kept; those before are rougher and cheaper.
         """
         settings, rough = self._settings, self._rough.simulation
         best = settled(one, settings.heat)
@@ -182,14 +182,14 @@ class Learner:
         return best
 
     def _finer(self, rough: Simulation) -> list[Simulation]:
-        """Ten times finer each, up to the runs of what is kept: a search that crawls does so by cheap ones."""
+        """Solver settings, ten times finer each, up to those of models that are kept; so most iterations are cheap."""
         found = [self._present.simulation]
         while found[0].solver.rtol < 0.1 * rough.solver.rtol:
             found.insert(0, found[0].finer(10.0).searching())
         return found
 
     def _share(self, one: LawFit) -> float:
-        """What a law takes of the sum of squares over the floors that could be avoided."""
+        """Share of the avoidable sum of squares that a law explains, 0 ... 1."""
         residuals = one.fit.candidate.residuals(one.fit.simulation)
         floors = np.array([self._floors[channel] ** 2 for channel in residuals.channels])
         before, after = (fit.point.squares / floors for fit in (self._present, one.fit))
@@ -197,7 +197,7 @@ class Learner:
         return float(np.clip(float(np.sum(before - after)) / max(most, 1e-9), 0.0, 1.0))
 
     def _ties(self, fits: Sequence[LawFit]) -> tuple[str, ...]:
-        """Other places of which the data do not tell a law from the best (rule of `Search`), in the race."""
+        """Other places with a law that the data do not separate from the best one, after the rule of `Search`."""
         best, own, found = fits[0], rivals.of(fits[0].fit), dict[str, None]()
         for one in fits[1:]:
             reach = rivals.reach(own, rivals.of(one.fit), self._session.settings.tie)
@@ -206,7 +206,7 @@ class Learner:
         return tuple(found)
 
     def _tested(self, one: LawFit, laws: int) -> GainTest:
-        """The F test at the effective size, a curve counting by its effective coefficients; then the vetoes."""
+        """F test with the curve's effective number of coefficients, then the least share, then the vetoes."""
         present, gain = self._present, self._present.point.cost - one.cost
         size, choices = present.candidate.size + math.ceil(one.edf), laws + self._tried
         test = rivals.gain_test(present, one.fit, gain, one.edf, size, choices, self._session.settings)

@@ -1,8 +1,8 @@
-"""Whether effects that were named keep their names beside a learned law.
+"""Whether effects that were found stay in the model beside a learned law.
 
-A law at an effect's own slot over a variable of the effect's own law refines the name and never unseats it: its curve
-contains every effect there. Any other law unseats an effect that the data no longer demand beside it, where the law
-alone takes a good part more of the avoidable sum of squares.
+A law at the slot of an effect, over a variable of the effect's own law, refines the effect and never replaces it: such
+a curve can imitate every effect there. Any other law replaces ("unseats") an effect if the effect is no longer
+significant beside the law, and the law alone explains clearly more of the avoidable sum of squares.
 """
 
 from __future__ import annotations
@@ -24,12 +24,12 @@ from pysim.diagnosis.settings import LearnSettings
 from pysim.types import BadInput, Effect
 from pysim.types.answer import GainTest
 
-# Effects -> the model with these and the sensor errors of the final one.
+# Effects -> the candidate with these effects and the sensor errors of the final model.
 Alone = Callable[[Sequence[Effect]], Candidate]
 
 
 def refines(law: Law, effect: Effect) -> bool:
-    """Whether a law stands at an effect's slot over a variable that the effect's own law has."""
+    """Whether the law is at the effect's slot, over a variable that the effect's own law has."""
     name = law.argument.removeprefix(f"{law.place.name}.")
     words = set(re.findall(r"[A-Za-z_]\w*", effect.law))
     return effect.slot == law.place.name and name in words
@@ -46,13 +46,13 @@ def without_the_unseated(
     tried: int,
     settings: LearnSettings | None = None,
 ) -> LawFit:
-    """The law beside those effects alone that keep their names.
+    """The refitted law without the effects that it replaces; the least costly effect is tried first.
 
     Args:
-        law: beside all effects of `present`.
+        law: refitted beside all effects of `present`.
         base: the model without effects.
-        losses: effect -> what leaving it out of `present` costs.
-        tried: choices, for the test of each effect.
+        losses: effect -> test of what leaving it out of `present` costs.
+        tried: number of comparisons, for the Bonferroni correction.
     """
     settings = settings or LearnSettings()
     best, before, avoidable = law, floors.avoidable(present), floors.avoidable(base)
@@ -74,7 +74,7 @@ def without_the_unseated(
 
 
 def _without(session: Session, law: LawFit, effect: Effect, alone: Alone, settings: LearnSettings) -> LawFit | None:
-    """The law in the model without one effect, refitted from where it stands; None where that cannot be made."""
+    """The law in the model without one effect, refitted from its values; None if that does not compile or run."""
     assert session.build_law is not None
     effects = [one for one in law.fit.candidate.effects if one is not effect]
     values = dict(_kept(law, effect))
@@ -93,7 +93,7 @@ def _without(session: Session, law: LawFit, effect: Effect, alone: Alone, settin
 
 
 def _kept(law: LawFit, effect: Effect) -> Iterator[tuple[str | tuple[str, str], float]]:
-    """The free parameters of the model and of all other effects."""
+    """Key and value of the free parameters of the model and of all effects but one."""
     own = law.law.place.coefficients(law.knots.size)
     for key, value in law.fit.values.items():
         if key not in own and not (isinstance(key, tuple) and key[0] == effect.name):

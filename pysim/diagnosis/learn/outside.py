@@ -1,7 +1,7 @@
-"""A model that cannot be looked into: the law that its inputs or outputs would need.
+"""Laws for an FMU without Modelica source: what would have to be added to its inputs or outputs.
 
-A law is added to an input, `u + h(z)`, or to an output, `y + h(z)`, over an input, an output, or an output's rate.
-All is to first order, with the parameters refitted. The inside of the model is not changed, so that no class can be
+A law is added to an input, `u + h(z)`, or to an output, `y + h(z)`; z is an input, an output, or an output's rate. All
+is to first order, with the parameters refitted. Nothing inside the model is changed, so that no Modelica class can be
 written.
 """
 
@@ -29,18 +29,18 @@ from pysim.types.answer import LearnedLaw
 
 Array = NDArray[np.float64]
 
-_STEP = 0.01  # of an input's range: by how much it is moved for a slope
-_SHOWN = 0.01  # share of what is missing below which a place is not worth a row
+_STEP = 0.01  # finite-difference step of an input, over its range
+_SHOWN = 0.01  # share of the avoidable sum of squares below which a place is left out
 
 
 def outside_laws(present: FinalFit, floors: Mapping[Channel, float]) -> tuple[LearnedLaw, ...]:
-    """Of each input and output the best law, the likeliest place first.
+    """The best law of each input and output, the best place first (by penalised gain).
 
     Args:
-        present: the model that lacks something, refitted.
+        present: the refitted model that lacks something.
         floors: standard deviation of the noise of each channel.
     Raises:
-        BadInput: the measurements are no logs over time.
+        BadInput: a stepped sine or a response table is among the measurements.
     """
     residuals = present.candidate.residuals(present.simulation)
     if any(run.orbit is not None for run in residuals.runs) or any(o.domain != "time" for o in residuals.observations):
@@ -80,7 +80,7 @@ def outside_laws(present: FinalFit, floors: Mapping[Channel, float]) -> tuple[Le
 
 
 class _View:
-    """One run of the fitted model: its inputs, its outputs, and how these answer to a change of an input."""
+    """One run of the fitted model: signals, and the response of its outputs to changes of an input."""
 
     def __init__(self, model: Model, experiment: Experiment, present: FinalFit) -> None:
         self.model, self._solver = model, present.simulation.solver
@@ -92,12 +92,12 @@ class _View:
             self.signals |= {name: column, f"der({name})": np.gradient(column, times)}
 
     def answers(self, experiments: Sequence[Experiment]) -> list[Array | None]:
-        """(n_t, n_y) of each; None of one that failed."""
+        """Simulated outputs (n_t, n_y) of each experiment; None for one that failed."""
         records = simulate_many(self.model, experiments, solver=self._solver)
         return [record.values if record.outcome is Outcome.DONE else None for record in records]
 
     def by_input(self, name: str, basis: Array, step: float) -> Array:
-        """(n_t, n_y, m) by what basis (n_t, m) times one unit adds to an input."""
+        """Derivative (n_t, n_y, m) of the outputs by the coefficients of a basis (n_t, m) that is added to an input."""
         own, times = self.experiment, self.experiment.times
         moved = [
             replace(own, inputs={**own.inputs, name: own.inputs[name].plus(Signal.through(times, step * column))})
@@ -109,7 +109,7 @@ class _View:
 
 
 def _arguments(views: Sequence[_View]) -> Iterator[tuple[str, str]]:
-    """What a law may depend on, with its unit: inputs, outputs and their rates, as far as they move."""
+    """Arguments of laws, with their units: inputs, outputs and the outputs' rates, as far as they move."""
     model = views[0].model
     for name in views[0].signals:
         moves = any(np.ptp(view.signals[name]) > 0 for view in views)
@@ -120,7 +120,7 @@ def _arguments(views: Sequence[_View]) -> Iterator[tuple[str, str]]:
 
 
 def _slopes(views: Sequence[_View], bases: Sequence[Array]) -> Iterator[tuple[str, str, list[Array]]]:
-    """Input or output, its unit, and for each run what a law there adds to the outputs, (n_t, n_y, m)."""
+    """Each output and input, its unit, and per run the derivative (n_t, n_y, m) of the outputs by a law there."""
     model, first = views[0].model, views[0].experiment
     for j, name in enumerate(first.record):
         slopes = [np.zeros((*view.values.shape, basis.shape[1])) for view, basis in zip(views, bases, strict=True)]

@@ -1,4 +1,4 @@
-"""What a law does beside the parameters, as products of columns: all that a penalised regression needs of them."""
+"""Gram matrices of a law's Jacobian, the residual and the parameters' Jacobian, for a penalised regression."""
 
 from __future__ import annotations
 
@@ -18,16 +18,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Products:
-    """Products of the columns of a point's table, channel by channel: parameters' slopes, residual, a law's slopes.
+    """Gram matrices T'T, channel by channel, of the table T = [parameters' Jacobian, residual, law's Jacobian].
 
     Args:
-        point: with slopes by the parameters.
-        channel: (n_r,) number of each row's channel; the last of what has a known level.
+        point: with the Jacobian of the parameters.
+        channel: (n_r,) number of each row's channel; n_c for rows whose level is known.
         floors, samples: (n_c,) least variance and number of samples of each channel.
         noise: (n_c,) variance of the noise.
-        parts: (n_c + 1, k, k) products.
-        size: that a law's slopes are divided by.
-        more: columns of a law.
+        parts: (n_c + 1, k, k) Gram matrices; k columns in all.
+        size: number by which the law's Jacobian is divided.
+        more: number of the law's columns.
     """
 
     point: Point = field(repr=False)
@@ -41,10 +41,10 @@ class Products:
 
     @classmethod
     def at(cls, point: Point, residuals: WeightedResiduals, noise: Mapping[Channel, float] | None = None) -> Products:
-        """Of a point of these residuals, no law beside it yet.
+        """Start from a point of these residuals, without a law.
 
         Args:
-            noise: standard deviation of each channel; the least it can have where None.
+            noise: standard deviation of the noise of each channel; its least level if None.
         """
         place = {channel: i for i, channel in enumerate(residuals.channels)}
         own = [-1 if name is None else place[one.dataset, name] for one, name in residuals.series]
@@ -56,53 +56,53 @@ class Products:
 
     @property
     def rows(self) -> float:
-        """How many rows there are."""
+        """Number of rows, priors included."""
         return float(self.point.count)
 
     def with_(self, columns: Array, *, scaled: bool = True) -> Products:
-        """A law's slopes (n_r, m) beside the point's, divided by their size."""
+        """The Gram matrices with a law's Jacobian (n_r, m), divided by its rms column norm if `scaled`."""
         size = float(np.linalg.norm(columns)) / math.sqrt(columns.shape[1]) if scaled else 1.0
         table = np.column_stack([self.point.jacobian, self.point.residual, columns / size])
         own = [table[self.channel == c] for c in range(self.samples.size + 1)]
         return replace(self, parts=np.array([t.T @ t for t in own]), size=size, more=columns.shape[1])
 
     def _split(self, weights: Array) -> tuple[Array, Array]:
-        """Weighted products of residual and law (1 + m, 1 + m), and what of the parameters takes their common part."""
+        """Weighted Gram matrix (1 + m, 1 + m) of residual and law, projected off the parameters; their regression."""
         n = self.point.x.size
         whole = np.tensordot(weights, self.parts, 1)
         by = np.linalg.pinv(whole[:n, :n], rcond=EXACT, hermitian=True) @ whole[:n, n:]
         return whole[n:, n:] - whole[n:, :n] @ by, by
 
     def across(self, weights: Array) -> tuple[Array, Array, float]:
-        """A'A, A'r and r'r of law and residual, across what the parameters explain."""
+        """A'A, A'r and r'r of the law's Jacobian A and the residual r, projected off the parameters."""
         rest, _ = self._split(weights)
         return rest[1:, 1:], rest[1:, 0], float(rest[0, 0])
 
     def left(self, weights: Array, values: Array) -> Array:
-        """(n_c + 1,) sums of squares that a law leaves with these coefficients (m,), over the point's levels."""
+        """(n_c + 1,) sums of squares over the point's levels that remain with a law's coefficients (m,)."""
         _, by = self._split(weights)
         own = np.append(1.0, values)
         whole = np.append(-by @ own, own)
         return np.asarray(np.einsum("i,cij,j->c", whole, self.parts, whole))
 
     def _variances(self, left: Array) -> Array:
-        """(n_c,) of the channels, those squares counted that no model changes."""
+        """(n_c,) residual variances of the channels, squares included that no model changes."""
         own = np.diagonal(self.parts, axis1=1, axis2=2)[:-1, self.point.x.size]
         squares = self.point.squares + (left[:-1] - own) * self.point.levels**2
         return np.asarray(np.maximum(squares, 0.0) / np.maximum(self.samples, 1.0))
 
     def weights(self, left: Array) -> Array:
-        """(n_c + 1,) of the squares of rows, once levels follow what is left."""
+        """(n_c + 1,) weights of squared rows if the levels are those of what is left."""
         return np.append(self.point.levels**2 / np.maximum(self._variances(left), self.floors), 1.0)
 
     def gain(self, left: Array) -> float:
-        """Nats by which the objective falls."""
+        """Nats by which the cost falls if the sums of squares become `left`."""
         before = np.diagonal(self.parts, axis1=1, axis2=2)[:, self.point.x.size]
         costs = [self._costs(self._variances(one)) for one in (before, left)]
         return float(costs[0] - costs[1] + 0.5 * (before[-1] - left[-1]))
 
     def share(self, left: Array) -> float:
-        """Of the sum of squares over the noise that could be avoided, what is avoided."""
+        """Share of the avoidable sum of squares (beyond the noise) that is gone if the sums become `left`."""
         before = np.diagonal(self.parts, axis1=1, axis2=2)[:, self.point.x.size]
         ratios = [self._variances(one) / self.noise for one in (before, left)]
         most = float(np.sum(self.samples * np.maximum(ratios[0] - 1, 0)))

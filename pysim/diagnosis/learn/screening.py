@@ -1,4 +1,4 @@
-"""All laws at all places to first order at a fitted model: one penalised regression each, parameters refitted."""
+"""Screening of all laws at all places of a fitted model: one penalised regression each, with parameters refitted."""
 
 from __future__ import annotations
 
@@ -26,28 +26,28 @@ from pysim.types import Model, Outcome
 
 Array = NDArray[np.float64]
 
-# Runs over time whose signals are looked at for the knots, and samples of each at most.
+# Runs whose signals place the knots (the longest ones), and samples of each, at most.
 _RUNS, _SAMPLES = 24, 4000
-# What two arguments may differ by, over their range, to count as the same up to scale and offset.
+# Two arguments count as the same, up to scale and offset, if their correlation is nearer to 1 or -1 than this.
 _SAME = 1e-4
-_BOTH = 0.05  # share of the samples that a sign must have on either side
-# Unit of coefficients before anything is known of them, so small that any model answers to it in proportion.
+_BOTH = 0.05  # share of the samples that must have each sign
+# First scale of coefficients, so small that the response of any model is proportional.
 _LITTLE = 1e-12
-_REWEIGHTED = 3  # times that levels follow what a law leaves
+_REWEIGHTED = 3  # rounds of reweighting by the levels that a law leaves
 
 
 @dataclass(frozen=True)
 class Ranked:
-    """One law to first order.
+    """One law as it was screened, to first order.
 
     Args:
-        law: which.
+        law: place, argument and factor.
         knots: (m,) of its curve.
-        unit: of its coefficients.
-        curve: its coefficients, in that unit.
-        gain: nats that it promises, parameters refitted.
-        score: gain less the penalty of its effective coefficients.
-        share: of the sum of squares over the floors that could be avoided, 0 ... 1.
+        unit: scale of its coefficients, in the model's units.
+        curve: best coefficients, over `unit`.
+        gain: nats that the law promises, with the parameters refitted.
+        score: gain less the BIC penalty of the effective number of coefficients.
+        share: share of the avoidable sum of squares that it explains, 0 ... 1.
     """
 
     law: Law
@@ -66,13 +66,13 @@ class Ranked:
 
 @dataclass(frozen=True)
 class LawModel:
-    """A compiled model with terms, beside the measurements that a fitted model without them is held against.
+    """A model compiled with the term of a law at one place, and the fitted model without the term.
 
     Args:
-        place: with the term.
-        count: knots of its curve.
-        present: the model without.
-        model: the compiled one.
+        place: where the term is.
+        count: number of knots of its curve.
+        present: refit of the model without the term.
+        model: the compiled model.
     """
 
     place: Place
@@ -82,14 +82,14 @@ class LawModel:
 
     @cached_property
     def problem(self) -> Problem:
-        """The measurements beside the compiled model."""
+        """The compiled model and the measurements."""
         return beside(self.present.candidate.problem, self.model, [])
 
     def slopes(self, law: Law, k: Array, by: Array) -> tuple[float, Array] | None:
-        """Unit of a law's coefficients, and slopes (n_r, m) by them where all are 0; None where it does not run.
+        """Scale of a law's coefficients, and the Jacobian (n_r, m) by them at 0; None if the run fails.
 
         Args:
-            k: (m,) knots; by: (n,) samples of its factor.
+            k, by: (m,) knots, and (n,) samples of its factor.
         """
         unit = _LITTLE / max(float(np.sqrt(np.mean(by**2))), 1e-300)
         names = self.place.coefficients(k.size)
@@ -100,10 +100,10 @@ class LawModel:
         return (unit, point.jacobian) if point.good and np.isfinite(point.jacobian).all() else None
 
     def candidate(self, settings: Mapping[str, float], names: Sequence[str], scale: Array, *, free: bool) -> Candidate:
-        """The model with laws: its parameters free (or held where they stand), then these coefficients (m,).
+        """A candidate whose free variables are the parameters of the model, if `free`, and these coefficients (m,).
 
         Args:
-            settings: of the laws' terms; scale: (m,) of the coefficients in the search.
+            settings, scale: parameters that choose the law, and (m,) scale of the coefficients in the search.
         """
         own = self.present.candidate
         held = own.held(self.present.values) if not free else own.space
@@ -131,7 +131,7 @@ def _with_coefficients(
 
 
 def seen(present: FinalFit, model: Model, places: Sequence[Place]) -> dict[str, Array]:
-    """Samples (n,) of every variable that a law may depend on, along the fitted model's runs; none that failed."""
+    """Samples (n,) of every variable that a law may depend on, from the fitted model's runs; empty if all runs fail."""
     names = {name for place in places for side in place.sides for name in (*side.own, *place.outside)} - {TIME}
     residuals = present.candidate.residuals(present.simulation)
     overrides = present.candidate.held(present.values).fixed
@@ -150,8 +150,8 @@ def seen(present: FinalFit, model: Model, places: Sequence[Place]) -> dict[str, 
 
 
 def distinct(places: Sequence[Place], signals: Mapping[str, Array]) -> list[Law]:
-    """The laws at these places without those that say the same: signals that are others, scaled and shifted, and signs
-    of what never changes its sign."""
+    """The laws at these places without duplicates and without signs of variables that hardly change their sign.
+    Signals that differ only by scale and offset are duplicates, since a curve over one is a curve over the other."""
     found: list[Law] = []
     for place in places:
         shapes = [_scaled(samples(Law(place, i), signals)[0]) for i in range(len(place.arguments))]
@@ -172,13 +172,13 @@ def distinct(places: Sequence[Place], signals: Mapping[str, Array]) -> list[Law]
 
 
 def _scaled(z: Array) -> Array:
-    """Mean 0 and standard deviation 1; 0 of what never moves."""
+    """The signal with mean 0 and standard deviation 1; zeros if it never moves."""
     spread = float(z.std())
     return (z - z.mean()) / spread if spread > 1e-12 * float(np.abs(z).max()) else np.zeros(z.size)
 
 
 def _alike(one: Array, other: Array) -> bool:
-    """Whether two scaled signals (n,) are the same but for their sign."""
+    """Whether two scaled signals (n,) are the same up to their sign."""
     return one is other or (one.size == other.size and abs(abs(float(np.mean(one * other))) - 1) < _SAME)
 
 
@@ -189,11 +189,11 @@ def screen(
     signals: Mapping[str, Array],
     floors: Mapping[Channel, float],
 ) -> list[Ranked]:
-    """Every law to first order, the best first; those that do not run are left out.
+    """Screen every law to first order; the best score first. Laws that cannot be simulated are left out.
 
     Args:
-        present: the model that lacks something.
-        models: of each place's key, with a term there.
+        present: the fitted model that lacks something.
+        models: key of a place -> model compiled with a term there.
         floors: standard deviation of the noise of each channel.
     """
     table = Products.at(present.point, present.candidate.residuals(present.simulation), floors)
@@ -216,12 +216,12 @@ def _ranked(law: Law, k: Array, unit: float, table: Products) -> Ranked:
 
 
 def first_order(table: Products, k: Array) -> tuple[Curve, float, float]:
-    """The best curve of a law, the nats that it promises, and its share of what could be avoided.
+    """The best curve of a law, its gain in nats, and its share of the avoidable sum of squares.
 
-    Levels follow what the law leaves: where misfit outweighs noise, those of the model without it say little.
+    The levels are updated to what the law leaves, since those of a model with much misfit are far from the noise.
 
     Args:
-        table: with the law's slopes (n_r, m).
+        table: Gram matrices with the law's Jacobian.
         k: (m,) knots.
     """
     weights = np.ones(table.samples.size + 1)
