@@ -200,7 +200,7 @@ class Models:
 
     def amounts(self, effects: Sequence[Effect], nuisances: Sequence[Nuisance] = ()) -> Iterator[Candidate]:
         """Candidates with these effects and further amounts: effects without events whose strength is not a limit.
-        Amounts without a state that are compiled together share a candidate; one with a state of its own gets one."""
+        Those compiled together share a candidate, but an effect whose law has a state gets a candidate of its own."""
         groups: dict[tuple[int, str], list[Effect]] = {}
         for effect in self.session.catalogue:
             if effect.limit or effect in effects:

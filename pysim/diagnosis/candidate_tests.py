@@ -121,7 +121,7 @@ def candidate_tests(
     """Stepped sines and waves between the data set's lowest and highest command, no faster than its logs resolve.
 
     Args:
-        settled: returns the time in s at which a run has settled; it chooses itself what the run records.
+        settled: returns the time in s at which a run has settled, whatever the run is set to record.
         model: of the system.
     Raises:
         BadInput: no log over time, not exactly one command, or a command that never moves.

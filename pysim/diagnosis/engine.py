@@ -61,14 +61,14 @@ def diagnose(session: Session, *, progress: Say | None = None, checkpoint: Path 
 def learn(
     session: Session, effects: Sequence[Effect] = (), *, progress: Say | None = None, checkpoint: Path | None = None
 ) -> Diagnosis:
-    """Learn a law that the model lacks and no catalogue has: for each place in the model the curve that fits best.
+    """Learn a law that no catalogue has: for each place in the model the curve, over one variable, that fits best.
 
     If the model's Modelica class is not available, the places are its inputs and outputs, and no law is added.
 
     Args:
         effects: added to the model before the law is learned.
     Raises:
-        BadInput: an effect cannot be built or simulated.
+        BadInput: an effect cannot be compiled or simulated.
     """
     if effects:
         _needs_class(session)

@@ -67,9 +67,9 @@ def error_step(
 
 
 def held_still(fit: FinalFit) -> tuple[tuple[Estimate, ...], tuple[Direction, ...]]:
-    """Estimates with one parameter held of each direction that the data leave exactly undetermined; these directions.
+    """Estimates with one parameter held of each direction that the data leave exactly undetermined; and the directions.
 
-    If all forces may be scaled together, no force has a finite interval until one is held, even a certain friction.
+    For example, if all forces can be scaled together, none has a finite interval until one of them is held.
     """
     space, point, held = fit.candidate.space, fit.point, []
     found, slopes = uncertainty(space, point), point.jacobian.copy()

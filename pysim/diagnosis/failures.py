@@ -64,7 +64,7 @@ def _own(record: RecordFit) -> Iterator[Failure]:
 
 
 def bands(frequency: Array) -> Iterator[slice]:
-    """Bands of a frequency axis (n_f,) in equal steps, equally wide in its logarithm, of _LINES lines or more."""
+    """Bands of an even frequency axis (n_f,), about equally wide on a logarithmic scale, of _LINES lines or more."""
     edges = np.geomspace(1, frequency.size + 1, _BANDS + 1)
     start = 0
     for edge in edges[1:]:

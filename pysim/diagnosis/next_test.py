@@ -114,7 +114,7 @@ def _overrides(session: Session, fit: FinalFit) -> dict[str, float]:
 
 
 def _settled(session: Session, fit: FinalFit, signals: Signals, run: Experiment, still: float) -> float:
-    """Time in s after which all signals are within `still` times their noise of their ends; the last one on failure."""
+    """Time in s after which every signal stays within `still` times its noise of its end; the run's end on failure."""
     if not signals:
         raise BadInput("a next test needs an output in a log over time to go by; log one")
     asked = replace(run, record=tuple(s.variable for s in signals), overrides=_overrides(session, fit))

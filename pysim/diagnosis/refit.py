@@ -77,8 +77,8 @@ class FinalFit:
         return tuple(zip(self.candidate.nuisances, self.point.carried.nuisances.tolist(), strict=True))
 
     def believable(self, label: str, settings: Settings) -> bool:
-        """Whether the size of an effect or sensor error is plausible: the strength of an effect does not press against
-        its bound, a sensor error is within `settings.believable` standard deviations of its prior."""
+        """Whether the fitted size of an effect or sensor error is plausible.
+        An effect must not press against its bound, and a sensor error be within `settings.believable` prior sds."""
         own = [(e.name, p) for e in self.candidate.effects if e.name == label for p in e.strengths]
         if any(self._is_beyond((name, p.name), p.off or 0.0, settings.beyond) for name, p in own):
             return False
@@ -87,8 +87,8 @@ class FinalFit:
         return all(abs(size) <= settings.believable * error.prior_sd for name, (error, size) in sizes if name == label)
 
     def _is_beyond(self, key: Key, off: float, share: float) -> bool:
-        """Whether a strength is at the bound farthest from off and, without that bound, a Gauss-Newton step would
-        increase it by more than `share` of itself."""
+        """Whether a strength presses against its bound on the side away from off.
+        That is: without the bound, a Gauss-Newton step would increase it by more than `share` of itself."""
         x, own = self.point.x, self.candidate.keys.index(key)
         size = float(x[own] - self.candidate.at({**self.values, key: off})[own])
         lower, upper = self.candidate.space.bounds()
@@ -148,7 +148,7 @@ def cost_at(candidate: Candidate, values: Values, simulation: Simulation, presen
 def again(
     candidate: Candidate, x: Array, carried: Carried, simulation: Simulation, outcome: FitOutcome | None, tried: int
 ) -> FinalFit:
-    """A refit that a checkpoint remembers, simulated once at its end."""
+    """A refit read from a checkpoint, simulated once at its end."""
     evaluate = Secants(candidate, simulation, None).evaluate if candidate.has_events else exact(candidate, simulation)
     point = evaluate(x, carried)
     return FinalFit(candidate, State(point, tried, point.cost, outcome=outcome), simulation, evaluate)
@@ -238,7 +238,7 @@ def integrated(fit: FinalFit, refinements: int) -> FinalFit:
 def brought_near(fit: FinalFit, other: Point) -> Point:
     """A point on other measurements than the fitted ones, with the parameters moved within the fit's uncertainty.
 
-    To first order the move minimises the cost of both; what it costs the fit is added. Source: Rasmussen and Williams
+    The move minimises the linearised cost on both; its cost on the fitted logs is added. Source: Rasmussen and Williams
     2006, Gaussian Processes for Machine Learning, Eq. 2.9: the predictive density without its normalisation.
     """
     n, bounds = fit.point.x.size, _bounds(fit.candidate)
@@ -259,8 +259,8 @@ class Runner:
         start: returns the first state of its refit.
         before: cost of the present model, simulated in the same way.
         most: largest gain that is possible, nats; infinite if unknown.
-        beside: whether its start is already evaluated and as good as the present model's point. The Jacobian there
-            predicts its gain, within orders of magnitude.
+        beside: whether its start is evaluated already, and practically the present model (the effect nearly off). The
+            Jacobian there predicts its gain, within orders of magnitude.
     """
 
     start: Callable[[], FinalFit]
@@ -274,8 +274,8 @@ def race(
 ) -> list[FinalFit]:
     """Refit rivals in rounds of a few iterations; drop those that promise too little; return the largest gain first.
 
-    A rival that can gain too little beside the others does not start, or stays where it is. Of several starts of one
-    candidate the most promising goes on. The last `settings.finalists` are refitted to the end.
+    A rival that can gain too little compared with the others does not start, or stays where it is. Of several starts of
+    one candidate the most promising goes on. The last `settings.finalists` are refitted to the end.
 
     Args:
         runners: the most promising first.

@@ -67,7 +67,7 @@ class Sizes:
     Args:
         off: of an amount that is practically off, where its derivative is taken. At exactly 0, a Stribeck friction has
             none; at 1e-5, air in a chamber that runs empty already costs 30 nats.
-        kept: the same for an amount with a state of its own; step control misses smaller ones, derivatives err.
+        kept: the same for an amount whose law has a state, since the step control overlooks smaller ones.
         usual: of an amount that is simulated at some sizes.
         limits: of a limit (end stop, saturation), over the largest value that the limited variable reaches.
         limits_unknown: of a limit if that largest value is not known, over its usual value.

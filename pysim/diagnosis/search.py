@@ -307,8 +307,8 @@ class Search:
     def _exchanged(self, base: FinalFit, steps: list[Step]) -> list[Step]:
         """The steps, with a rival in place of an earlier choice if that does better together with the later steps.
 
-        At first, several effects can imitate one that is still missing. Which of them is right shows once it is in
-        the model. Source: Miller 2002, Subset Selection in Regression, section 3.7: sequential replacement.
+        An earlier choice may have won its step only because it also imitated an effect that joined later.
+        Source: Miller 2002, Subset Selection in Regression, section 3.7: sequential replacement.
         """
         for k, step in enumerate(steps[:-1]):
             present, first, *others = steps[-1].model, *step.rivals
@@ -497,18 +497,18 @@ class Search:
         return replace(test, verdict=Verdict.VETOED) if vetoed else test
 
     def _held_out(self, smaller: FinalFit, larger: FinalFit) -> tuple[float, float] | None:
-        """Increase of the validation logs' cost by the larger model and by chance, nats; None without such logs."""
+        """Rise of the validation logs' cost with the larger model, and the rise by chance, nats; None without logs."""
         if not larger.candidate.residuals(larger.simulation, "validate").observations:
             return None
-        opened = not (larger.candidate.law or larger.candidate.has_events)
+        opened = not (larger.candidate.law or larger.candidate.has_events)  # a curve would bend where it has no data
         (own, cost), (other, before) = (self._beside_unfitted(one, opened) for one in (larger, smaller))
         if own is None or other is None:
             return None if own is other else (cost - before, 0.0)  # one cannot be simulated there: infinite
         return cost - before, rivals.reach(own, other, self.settings.tie)
 
     def _beside_unfitted(self, fit: FinalFit, opened: bool) -> tuple[rivals.Rows | None, float]:
-        """Rows of a fit on the validation logs, None if a run fails, and cost there, nats. If `opened`, the parameters
-        may move within their uncertainty (`brought_near`); a learned law would then change where nothing was fitted."""
+        """Rows (None if a run fails) and cost in nats of a fit on the validation logs, which it was not fitted to.
+        If `opened`, the parameters may move towards these logs within their uncertainty (`brought_near`)."""
         key = (*_key(fit.candidate), opened)
         known = self._unfitted.get(key)
         if known is None or known[0] is not fit:

@@ -111,7 +111,7 @@ class Starts:
 def with_sensor_errors(present: FinalFit, models: Models) -> list[FinalFit]:
     """The present model with one more sensor error each, at the present parameters.
 
-    A sensor error that explains as much as an effect is tied with it. All share one simulation, as they change no run.
+    A sensor error that explains as much as an effect is tied with it. One simulation serves all: no run changes.
     """
     own, point, simulation = present.candidate, present.point, present.simulation
     free = [one for one in _nuisances(models) if one not in own.nuisances]

@@ -67,7 +67,7 @@ class Products:
         return replace(self, parts=np.array([t.T @ t for t in own]), size=size, more=columns.shape[1])
 
     def _split(self, weights: Array) -> tuple[Array, Array]:
-        """Weighted Gram matrix (1 + m, 1 + m) of residual and law, projected off the parameters; their regression."""
+        """Weighted Gram matrix (1 + m, 1 + m) of residual and law, projected off the parameters; and the regression."""
         n = self.point.x.size
         whole = np.tensordot(weights, self.parts, 1)
         by = np.linalg.pinv(whole[:n, :n], rcond=EXACT, hermitian=True) @ whole[:n, n:]

@@ -218,7 +218,7 @@ def _ranked(law: Law, k: Array, unit: float, table: Products) -> Ranked:
 def first_order(table: Products, k: Array) -> tuple[Curve, float, float]:
     """The best curve of a law, its gain in nats, and its share of the avoidable sum of squares.
 
-    The levels are updated to what the law leaves, since those of a model with much misfit are far from the noise.
+    The levels are updated to what the law leaves, since before they are those of the misfit and not of the noise.
 
     Args:
         table: Gram matrices with the law's Jacobian.
