@@ -92,7 +92,7 @@ class Settings:
         source="Box 1980, Journal of the Royal Statistical Society A 143:383; a chance of 6e-5",
     )  # fmt: skip
     beyond: float = setting(
-        0.05, unit="1", meaning="share of its size by which an effect may press against its bound, believably",
+        0.05, unit="1", meaning="share of its size by which an effect may press against its bound and be believable",
         source="bounds are round numbers, or limits that a law has by itself, such as a share of 1",
     )  # fmt: skip
     max_effects: int = setting(
