@@ -34,6 +34,7 @@ class Checkpoint:
 
     def __init__(self, path: Path | None, whose: str) -> None:
         self._path, self._known = path, dict[str, list[dict[str, Any]]]()
+        self._found: dict[str, list[FinalFit]] = {}
         if path is None:
             return
         head = {"diagnosis": hashlib.sha256(whose.encode()).hexdigest(), "form": _FORM}
@@ -54,17 +55,18 @@ class Checkpoint:
         candidates: Sequence[Candidate],
         simulations: Sequence[Simulation],
     ) -> list[FinalFit]:
-        """The refits of one part: read from the file and simulated once at their ends, or found now and saved.
+        """The refits of one part: found now and saved, or known, those of the file simulated once at their ends.
 
         Args:
             part: its name, the same whenever this diagnosis runs.
             candidates: all that the part may have refitted.
             simulations: all solver settings with which its refits may have ended.
         """
-        known = {(candidate.labels, candidate.transient): candidate for candidate in candidates}
+        if part in self._found:
+            return self._found[part]
         if part in self._known:
-            rows = self._known[part]
-            return [
+            known = {(candidate.labels, candidate.transient): candidate for candidate in candidates}
+            self._found[part] = [
                 again(
                     known[tuple(row["labels"]), row["transient"]],
                     np.array(row["x"]),
@@ -73,9 +75,10 @@ class Checkpoint:
                     FitOutcome[row["outcome"]] if row["outcome"] else None,
                     row["tried"],
                 )
-                for row in rows
+                for row in self._known[part]
             ]
-        found = list(find())
+            return self._found[part]
+        found = self._found[part] = list(find())
         if self._path is not None:
             rows = [_row(fit, simulations) for fit in found]
             with self._path.open("a", encoding="utf-8") as file:

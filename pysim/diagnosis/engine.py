@@ -80,13 +80,8 @@ def learn(
         search.say.doing("trying laws at inputs and outputs")
         laws = outside_laws(base, search.floors.sd)
         return replace(_answer(session, search, Found(base, base, (), search.floors)), missing=laws)
-    present = search.with_effects(base, effects) if effects else base
-    search.floors = search.floors.with_(base).with_(present)
-    losses = {effect.name: search.test(base, present) for effect in effects}
-    models = [present] * bool(effects)
-    return _answer(
-        session, search, Found(base, present, (), search.floors, losses), models=models, learns=Learns.ALWAYS
-    )
+    found, models = _extended(search, base, effects)
+    return _answer(session, search, found, models=models, learns=Learns.ALWAYS)
 
 
 def compare(
@@ -128,14 +123,19 @@ def add(
     _needs_class(session)
     search = _search(session, progress, checkpoint, "add")
     base = search.fit_base()
-    steps, present = [base], base
+    found, models = _extended(search, base, effects)
+    return _answer(session, search, found, models=models)
+
+
+def _extended(search: Search, base: FinalFit, effects: Sequence[Effect]) -> tuple[Found, list[FinalFit]]:
+    """The base model with effects that are added one after the other, and the model after each of them."""
+    steps = [base]
     for k, effect in enumerate(effects, start=1):
         search.say.doing(f"adding {effect.name}")
-        present = search.with_effects(present, effects[:k])
-        steps.append(present)
-    search.floors = search.floors.with_(base).with_(present)
+        steps.append(search.with_effects(steps[-1], effects[:k]))
+    search.floors = search.floors.with_(base).with_(steps[-1])
     losses = {e.name: search.test(steps[k], steps[k + 1]) for k, e in enumerate(effects)}
-    return _answer(session, search, Found(base, present, (), search.floors, losses), models=steps[1:])
+    return Found(base, steps[-1], (), search.floors, losses), steps[1:]
 
 
 def _needs_class(session: Session) -> None:

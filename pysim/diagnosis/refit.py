@@ -164,11 +164,13 @@ def exact(candidate: Candidate, simulation: Simulation) -> Evaluate:
     return evaluate
 
 
-def advance(fit: FinalFit, points: int) -> FinalFit:
-    """Continue the refit by at most `points` iterations."""
-    candidate, state, optimiser = fit.candidate, fit.state, _optimiser()
-    bounds = _bounds(candidate)
+def advance(fit: FinalFit, points: int, enough: float = 0.0) -> FinalFit:
+    """Continue the refit by at most `points` iterations, until a full step promises less than `enough` nats."""
+    candidate, state = fit.candidate, fit.state
+    bounds, optimiser = _bounds(candidate), replace(_optimiser(), tolerance=max(enough, _optimiser().tolerance))
     for _ in range(points):
+        if state.outcome is None and state.memory.get("expected", math.inf) < enough:
+            state = replace(state, outcome=FitOutcome.CONVERGED)
         if state.outcome is not None:
             break
         proposal = optimiser.propose(state, bounds)
@@ -194,24 +196,17 @@ def _expecting(state: State, bounds: Bounds) -> State:
     return replace(state, memory={**state.memory, "expected": _optimiser().propose(far, bounds).predicted})
 
 
-def converged(fit: FinalFit, simulation: Simulation | None = None) -> FinalFit:
+def converged(fit: FinalFit, simulation: Simulation | None = None, enough: float = 0.0) -> FinalFit:
     """Run the search to its end, with finer simulations from there on if they are given.
 
-    A cost that jumps, as with hysteresis, shortens the steps until none is left. The search then restarts at its end,
-    until a restart gains less than `Settings.anew` or the iteration limit is reached.
+    Args:
+        enough: nats; the search ends where a full step promises less.
     """
     most = _optimiser().max_iterations
-    fit = advance(fit, most)
+    fit = advance(fit, most, enough)
     if simulation is not None and simulation != fit.simulation and fit.good:
         finer = begin(fit.candidate, fit.values, simulation, fit)
-        fit = advance(finer, most) if finer.good else fit
-    tried = fit.state.tried
-    while fit.good and not fit.candidate.has_events and tried < most:
-        again = advance(begin(fit.candidate, fit.values, fit.simulation, fit), most - tried)
-        tried += again.state.tried
-        if not again.good or fit.point.cost - again.point.cost < Settings().anew:
-            break
-        fit = again
+        fit = advance(finer, most, enough) if finer.good else fit
     return fit
 
 

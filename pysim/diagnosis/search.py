@@ -176,19 +176,20 @@ class Search:
 
     def _hardly(self, fit: FinalFit) -> float:
         """Gain in nats below which another way to simulate is not worth it."""
-        return max(self.settings.anew, self.settings.small * self.floors.with_(fit).potential(fit))
+        return max(self.settings.least_gain, self.settings.small * self.floors.with_(fit).potential(fit))
 
-    def _fine_enough(self, fit: FinalFit) -> FinalFit:
-        """Refine the integration until its error is small beside the noise floor and finer runs gain hardly anything.
-        The gain is asked too, since the Jacobian of a sharp law becomes inaccurate before its signals do."""
+    def _fine_enough(self, fit: FinalFit, enough: float = 0.0) -> FinalFit:
+        """Refine the integration until its error is small beside the noise floor and finer runs gain hardly anything,
+        or `enough` nats at most. The gain is asked too: the Jacobian of a sharp law errs before its signals do."""
         for _ in range(self.settings.refinements if fit.good else 0):
             other = begin(fit.candidate, fit.values, fit.simulation.finer(), fit)
             if not other.good:
                 break
-            hardly, is_fine = self._hardly(fit), self.floors.with_(fit).between(fit, other) < self.settings.fine
+            hardly = max(self._hardly(fit), enough)
+            is_fine = self.floors.with_(fit).between(fit, other) < self.settings.fine
             if is_fine and other.point.cost - other.expected < hardly:
                 break
-            finer = converged(other)
+            finer = converged(other, enough=enough)
             if is_fine and other.point.cost - finer.point.cost < hardly:
                 break
             fit = finer
@@ -367,7 +368,8 @@ class Search:
         self.tried = max(self.tried, len(tried) + len(sensors))
 
         def finish(fit: FinalFit) -> FinalFit:
-            return self._fine_enough(converged(fit, self.fine))
+            gain = starts.here(fit.candidate.transient).point.cost - fit.point.cost
+            return self._fine_enough(converged(fit, self.fine), self.settings.small * gain)
 
         def raced() -> list[FinalFit]:
             return race(starts.runners(sizes, sensors, self.tried), self.settings, finish)
@@ -467,9 +469,13 @@ class Search:
 
     def _loss(self, final: FinalFit, name: str, on_trial: set[str]) -> GainTest:
         """Test of a part by leaving it out: F test, believable size, then validation logs and left-out blocks."""
-        smaller = self._without(final, name)
         chosen = sum(one in on_trial for one in final.candidate.labels)
         choices = math.comb(max(self.tried, 1), chosen + 1) if name in on_trial else max(self.tried, 1)
+        labels, transient = _key(final.candidate)
+        known = self._fits.get((labels - {name}, transient))
+        if known is not None and (test := self.test(known, final, choices)).verdict is not Verdict.BETTER:
+            return test  # another refit can only make the loss smaller
+        smaller = self._without(final, name)
         test = self.test(smaller, final, choices)
         if test.verdict is not Verdict.BETTER:
             return test
@@ -538,14 +544,12 @@ class Search:
         if not start.good:
             base = self._beside(self._fits[_key(self.models.of(()))], candidate.transient)
             start = begin(candidate, base.values, self.rough, base)
-        known = self._fits.get(_key(candidate))
-        rough = advance(start, self.settings.heat)
-        if known is not None:
-            hardly = self.settings.small * max(known.point.cost - present.point.cost, 0.0)
-            if not rough.good or rough.expected > known.point.cost - hardly:
-                return known
-        rough = converged(rough)
-        return converged(begin(candidate, rough.values, self.fine, rough)) if rough.good else rough
+        known, rough, enough = self._fits.get(_key(candidate)), advance(start, self.settings.heat), 0.0
+        if candidate.transient == present.candidate.transient:
+            enough = self.settings.small * max((known or rough).point.cost - present.point.cost, 0.0)
+        if known is not None and (not rough.good or rough.expected > known.point.cost - enough):
+            return known
+        return converged(rough, self.fine, enough)
 
     def _keep(self, fit: FinalFit) -> FinalFit:
         key = _key(fit.candidate)

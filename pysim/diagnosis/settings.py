@@ -42,8 +42,8 @@ class Settings:
         3, unit="1", meaning="iterations of each refit before candidates are compared with each other",
         source="measured: iterations to within a tenth of the gain",
     )  # fmt: skip
-    anew: float = setting(
-        0.5, unit="1", meaning="nats that a refit must gain by a restart at its end, to be restarted again",
+    least_gain: float = setting(
+        0.5, unit="1", meaning="nats below which finer integration, or another round of smoothing, is not worth it",
         source="what a parameter costs that is wrong by one standard deviation",
     )  # fmt: skip
     promising: float = setting(

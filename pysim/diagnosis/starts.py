@@ -43,9 +43,9 @@ class Starts:
         return self._here[transient]
 
     def like(self, rival: FinalFit) -> FinalFit:
-        """The model's fit to compare a rival with: in the same way, and with the same solver settings if available."""
-        fit = self.beside(rival.candidate.transient)
-        return fit if fit.simulation == rival.simulation else self.here(rival.candidate.transient)
+        """The model's fit to compare a rival with, simulated in the same way and no more roughly than the rival."""
+        own = rival.candidate.transient
+        return self.here(own) if rival.simulation == self.simulation else self.beside(own)
 
     def runners(self, sizes: Sequence[Screened], sensors: Sequence[FinalFit], tried: int) -> list[Runner]:
         """The rivals to refit, the most promising first; near the noise floor only those that could pass the F test.

@@ -52,7 +52,6 @@ class Verdict(Enum):
 
     BETTER = "better"
     NO_BETTER = "no_better"
-    TIED = "tied"
     VETOED = "vetoed"  # worse on logs that may choose, or on blocks left out
     UNDECIDABLE = "undecidable"  # too few independent samples
 
@@ -67,7 +66,7 @@ class GainTest:
         effective_size: number of independent samples that the residuals are worth.
         p_value: chance of such a gain where the effect is absent, all that was tried counted.
         penalised: gain less the penalty of the parameters, nats; rivals are ordered by it.
-        held_out, left_out_blocks: change of the logarithm of the error there; None where there is nothing to ask.
+        held_out, left_out_blocks: nats by which validation logs, and blocks left out, fit worse; None if not asked.
         verdict: what it comes to.
     """
 

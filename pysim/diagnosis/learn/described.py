@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnosis.learn.basis import Smoothness, bends, lines, missed
-from pysim.diagnosis.learn.laws import TIME, Law
+from pysim.diagnosis.learn.laws import TIME, Law, quotient
 from pysim.diagnosis.learn.learn import Learning
 from pysim.types import Model
 from pysim.types.answer import LearnedLaw
@@ -21,7 +21,7 @@ _ABSORBED = 0.5
 # The band is that of an undersmoothed curve, with this share of the best penalty weight, plus the bias of the rest. At
 # the full weight it would be a band of the smoothed law instead of the law (Hall 1992, Annals of Statistics 20:675).
 _UNDER = 0.1
-_SHOWN = 0.01  # share of the avoidable sum of squares below which a place is left out
+SHOWN = 0.01  # share of the avoidable sum of squares below which a place is left out
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ def answered(
         best.setdefault(law.slot, law)
     kept = laws[0] if learning.law is not None else None
     places = sorted(best.values(), key=lambda law: (law is not kept, -law.share))
-    return (() if kept is None else (kept,)), tuple(law for law in places if law.share > _SHOWN)
+    return (() if kept is None else (kept,)), tuple(law for law in places if law.share > SHOWN)
 
 
 def _law(law: Law, model: Model, knots: Array, values: Array) -> LearnedLaw:
@@ -99,25 +99,3 @@ def covariance_of(gram: Array, smooth: Smoothness, values: Array, inflated: floa
     beside = np.maximum(np.append(beside, 0.0), np.append(0.0, beside))
     whole = covariance + np.outer(bias, bias) / HALF_95**2 + np.diag((beside / HALF_95) ** 2)
     return Known(keep @ whole @ keep, absorbed)
-
-
-def quotient(unit: str, by: str) -> str:
-    """Quotient of two units as Modelica writes it: "N" by "m/s" is "N.s/m"."""
-    powers: dict[str, int] = {}
-    for text, sign in ((unit, 1), (by, -1)):
-        above, _, below = text.replace(" ", "").partition("/")
-        for part, side in ((above, sign), (below.strip("()"), -sign)):
-            for factor in filter(None, part.split(".")):
-                symbol = factor.rstrip("-0123456789")
-                if symbol:
-                    powers[symbol] = powers.get(symbol, 0) + side * int(factor[len(symbol) :] or 1)
-    over = [_power(symbol, n) for symbol, n in powers.items() if n > 0]
-    under = [_power(symbol, -n) for symbol, n in powers.items() if n < 0]
-    whole = ".".join(over) or "1"
-    if not under:
-        return whole
-    return f"{whole}/{under[0]}" if len(under) == 1 else f"{whole}/({'.'.join(under)})"
-
-
-def _power(symbol: str, n: int) -> str:
-    return symbol if n == 1 else f"{symbol}{n}"

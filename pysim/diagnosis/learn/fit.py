@@ -176,7 +176,7 @@ def settled(one: LawFit, points: int) -> LawFit:
         one = moved(one, points)
         if not one.fit.good:
             break
-        stands = one.fit.state.outcome is not None or cost - one.fit.point.cost < Settings().anew
+        stands = one.fit.state.outcome is not None or cost - one.fit.point.cost < Settings().least_gain
         if stands and abs(one.edf - edf) < _SETTLED:
             break
     return one

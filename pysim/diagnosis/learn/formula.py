@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from fmu_build.text.expressions import parse
 from pysim.diagnosis.learn.curve import curve_basis
 from pysim.diagnosis.learn.expression import derivative, modelica, replaced, smooth, value
+from pysim.diagnosis.learn.laws import quotient
 from pysim.types import EffectParameter
 from pysim.types.answer import LearnedLaw
 
@@ -275,7 +276,8 @@ class _Target:
         for k, (shape, amount, size) in enumerate(zip(shapes, own, sizes, strict=True), start=1):
             nominal, about = rounded_up(float(amount)), f"Amount of the {shape.name}, 0 = off"
             bounds = (-REACH * nominal, REACH * nominal, nominal)
-            of = _over(unit, argument, shape.power)
+            whole = shape.power == int(shape.power)  # SI units cannot express a root
+            of = quotient(unit, argument, int(shape.power)) if whole else "1"
             parameters.append(EffectParameter(f"a_{k}", of, *bounds, _shortened(amount), 0.0, about))
             terms.append(f"a_{k}" if shape.form == "1" else f"a_{k}*{replaced(shape.form, {'w': f'w_{k}'})}")
             if shape.sized:
@@ -296,31 +298,6 @@ def rounded_up(value: float) -> float:
 
 def _shortened(value: float) -> float:
     return float(f"{value:.8g}")
-
-
-def _over(unit: str, argument: str, power: float) -> str:
-    """Unit of an amount: the curve's unit over a power of the argument's unit, made of their symbols."""
-    if power != int(power):  # a root, which SI units cannot express
-        return "1"
-    powers = _symbols(unit)
-    for symbol, exponent in _symbols(argument).items():
-        powers[symbol] = powers.get(symbol, 0) - int(power) * exponent
-    above, below = (
-        [symbol + (f"{sign * n}" if sign * n > 1 else "") for symbol, n in powers.items() if sign * n > 0]
-        for sign in (1, -1)
-    )
-    divided = f"({'.'.join(below)})" if len(below) > 1 else "".join(below)
-    return ".".join(above or ["1"]) + (f"/{divided}" if below else "")
-
-
-def _symbols(unit: str) -> dict[str, int]:
-    """Powers of a unit's symbols: `N.s2/(m.Pa)` -> N: 1, s: 2, m: -1, Pa: -1."""
-    found: dict[str, int] = {}
-    above, _, below = unit.partition("/")
-    for part, sign in ((above, 1), (below.strip("()"), -1)):
-        for symbol, power in re.findall(r"([A-Za-z%]+)(-?\d*)", part):
-            found[symbol] = found.get(symbol, 0) + sign * int(power or 1)
-    return found
 
 
 def _chi_square(df: int) -> float:

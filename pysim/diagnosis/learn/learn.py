@@ -56,11 +56,6 @@ class Learning:
         """The best law if it passed its test; else None."""
         return self.fits[0] if self.test is not None and self.test.verdict is Verdict.BETTER else None
 
-    @property
-    def worth(self) -> float:
-        """Penalised gain of that law, nats; minus infinity if there is none."""
-        return self.test.penalised if self.test is not None and self.law is not None else -math.inf
-
 
 class Learner:
     """Learns laws beside one model.

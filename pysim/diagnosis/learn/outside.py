@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from pysim.diagnosis import rivals
 from pysim.diagnosis.learn.basis import knots
 from pysim.diagnosis.learn.curve import curve_basis
-from pysim.diagnosis.learn.described import covariance_of, quotient
+from pysim.diagnosis.learn.described import SHOWN, covariance_of
+from pysim.diagnosis.learn.laws import quotient
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.learn.screening import first_order
 from pysim.diagnosis.refit import FinalFit
@@ -30,7 +31,6 @@ from pysim.types.answer import LearnedLaw
 Array = NDArray[np.float64]
 
 _STEP = 0.01  # finite-difference step of an input, over its range
-_SHOWN = 0.01  # share of the avoidable sum of squares below which a place is left out
 
 
 def outside_laws(present: FinalFit, floors: Mapping[Channel, float]) -> tuple[LearnedLaw, ...]:
@@ -76,7 +76,7 @@ def outside_laws(present: FinalFit, floors: Mapping[Channel, float]) -> tuple[Le
             score = gain - 0.5 * curve.edf * math.log(count)
             if score > best.get(place, (0.0, law))[0]:
                 best[place] = (score, law)
-    return tuple(law for _, law in sorted(best.values(), key=lambda one: -one[0]) if law.share > _SHOWN)
+    return tuple(law for _, law in sorted(best.values(), key=lambda one: -one[0]) if law.share > SHOWN)
 
 
 class _View:

@@ -27,7 +27,6 @@ class Products:
         noise: (n_c,) variance of the noise.
         parts: (n_c + 1, k, k) Gram matrices; k columns in all.
         size: number by which the law's Jacobian is divided.
-        more: number of the law's columns.
     """
 
     point: Point = field(repr=False)
@@ -37,7 +36,6 @@ class Products:
     noise: Array
     parts: Array = field(repr=False)
     size: float = 1.0
-    more: int = 0
 
     @classmethod
     def at(cls, point: Point, residuals: WeightedResiduals, noise: Mapping[Channel, float] | None = None) -> Products:
@@ -64,7 +62,7 @@ class Products:
         size = float(np.linalg.norm(columns)) / math.sqrt(columns.shape[1]) if scaled else 1.0
         table = np.column_stack([self.point.jacobian, self.point.residual, columns / size])
         own = [table[self.channel == c] for c in range(self.samples.size + 1)]
-        return replace(self, parts=np.array([t.T @ t for t in own]), size=size, more=columns.shape[1])
+        return replace(self, parts=np.array([t.T @ t for t in own]), size=size)
 
     def _split(self, weights: Array) -> tuple[Array, Array]:
         """Weighted Gram matrix (1 + m, 1 + m) of residual and law, projected off the parameters; and the regression."""

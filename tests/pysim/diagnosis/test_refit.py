@@ -93,13 +93,6 @@ def test_a_search_that_has_ended_is_not_gone_on_with() -> None:
     assert end.expected == end.point.cost
 
 
-def test_a_search_whose_steps_became_too_short_begins_anew_where_it_ended() -> None:
-    begun = start("mass.friction", 0.5)
-    short = replace(begun, state=replace(begun.state, outcome=FitOutcome.CONVERGED))
-    assert converged(short).point.cost == pytest.approx(converged(begun).point.cost, abs=0.1)
-    assert begun.point.cost - converged(begun).point.cost > 10
-
-
 @pytest.mark.parametrize(("most", "believed"), [(5.0, True), (0.295, True), (0.2, False)])
 def test_an_effect_that_would_end_far_beyond_its_bound_is_not_believed(most: float, believed: bool) -> None:
     """Its true size is 0.3 N."""

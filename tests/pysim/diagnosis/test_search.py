@@ -243,3 +243,9 @@ def test_choices_that_gain_nothing_together_are_not_exchanged() -> None:
         Step(second, "mass.bias", search.test(first, second), True, ()),
     ]
     assert search._exchanged(second, list(steps)) == steps
+
+
+def test_a_part_of_a_search_is_found_once() -> None:
+    known = Checkpoint(None, "")
+    fits = [refitted(Models(given("mass", measured("mass", {}))))]
+    assert known.once("base", lambda: fits, [], []) == known.once("base", lambda: [], [], []) == fits

@@ -5,8 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from pysim.diagnosis.learn.curve import curve_basis
-from pysim.diagnosis.learn.described import quotient
-from pysim.diagnosis.learn.laws import Law, Terms, places
+from pysim.diagnosis.learn.laws import Law, Terms, places, quotient
 from pysim.diagnosis.learn.screening import distinct
 from pysim.effects import Slot
 from pysim.simulate import Rodas, simulate
@@ -70,7 +69,19 @@ def test_the_compiled_term_is_the_curve_times_its_factor(factor: int | None, is_
 
 @pytest.mark.parametrize(
     ("unit", "by", "right"),
-    [("N", "m/s", "N.s/m"), ("N", "", "N"), ("m3/s", "Pa", "m3/(s.Pa)"), ("m", "m", "1"), ("m/s", "s", "m/s2")],
+    [
+        ("N", "m/s", "N.s/m"),
+        ("N", "", "N"),
+        ("m3/s", "Pa", "m3/(s.Pa)"),
+        ("m", "m", "1"),
+        ("m/s", "s", "m/s2"),
+        ("N.s2/(m.Pa)", "s2.m-1/Pa", "N"),
+    ],
 )
 def test_the_unit_of_a_curve_is_that_of_the_slot_over_the_factor(unit: str, by: str, right: str) -> None:
     assert quotient(unit, by) == right
+
+
+@pytest.mark.parametrize(("power", "right"), [(1, "N/m"), (2, "N/m2"), (-1, "N.m"), (0, "N")])
+def test_the_unit_of_an_amount_is_over_a_power_of_the_argument(power: int, right: str) -> None:
+    assert quotient("N", "m", power) == right
