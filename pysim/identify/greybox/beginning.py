@@ -1,8 +1,8 @@
-"""Where logs began: their initial states, found on a short stretch first, then on longer and longer ones.
+"""Estimation of unknown initial states of logs: on a short first stretch of each log, then on longer and longer ones.
 
-Over a short stretch any model is nearly linear in the state that it begins at. Over a long one a swing that begins
-wrong ends up out of step, and a search cannot find its way back. Multiple shooting (Bock 1983) cures the same with more
-unknowns.
+Over a short stretch any model is nearly linear in its initial state. Over a long one an oscillation with a wrong
+initial state drifts out of phase, and the cost has local minima. Multiple shooting (Bock 1983) avoids these as well,
+with more unknowns. Logs whose initial states are known, or near rest, are not shortened.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ _SETTINGS = BeginningSettings()
 
 
 def first_point(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array) -> Point:
-    """Where a search begins: at x (n,), or where it came on longer and longer stretches of logs that begin anywhere."""
+    """First point of a search: at x (n,), or where fits of growing stretches of the logs end, if the cost is lower."""
     first = residuals.evaluate(model, space, x)
     carried = Carried()
     for head in _heads(residuals):
@@ -47,10 +47,10 @@ def first_point(residuals: WeightedResiduals, model: Model, space: ParameterSpac
 
 
 def settled_initial_states(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array) -> Point:
-    """The point at x (n,) with the initial states of its logs estimated, the parameters held.
+    """The point at x (n,) with estimated initial states and fixed parameters, without a Jacobian.
 
-    Nothing but its own measurements moves the state at which a log begins, so that each log is settled by itself.
-    """
+    Initial states of a log depend on that log alone, so each log is treated by itself. If one cannot be simulated, its
+    failed point is returned."""
     ends = [_settled(replace(residuals, observations=(one,)), model, space, x) for one in residuals.observations]
     if len(ends) == 1 or not all(end.good for end in ends):
         return next((end for end in ends if not end.good), ends[0])
@@ -82,7 +82,7 @@ def _settle(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x
 
 
 def _heads(residuals: WeightedResiduals) -> Iterator[WeightedResiduals]:
-    """The same with logs that begin anywhere cut to longer and longer stretches; none where no log does."""
+    """Residuals of growing first stretches of logs with unknown initial states; none if there is no such log."""
     anywhere = any(run.begins_anywhere for run in residuals.runs)
     if residuals.absolute or residuals.measure is not Measure.SIGNAL or not anywhere:
         return

@@ -1,4 +1,4 @@
-"""What a killed search goes on from, a line per point for a reader, and what tells one search from another."""
+"""Checkpoint of a search, from which a killed search resumes; a readable log of its points; a digest of its input."""
 
 from __future__ import annotations
 
@@ -30,14 +30,14 @@ LINES, STATE = "iterations.jsonl", "state.npz"
 class Checkpoint:
     """Folder of one search.
 
-    Each point is a line of iterations.jsonl: number, parameters in the model's units, cost (null for a bad point) and
-    whether the step was taken. state.npz, always whole, is what the search goes on from; it says the same after a
-    resume as without one, bit for bit.
+    Each point is a line of iterations.jsonl: number, parameters in the model's units, cost (null if the model could not
+    be simulated) and whether the step was taken. state.npz is replaced as a whole, and a resumed search gives the same
+    result as an uninterrupted one, bit for bit.
 
     Args:
-        folder: made where it is missing.
-        identity: text that tells this search from any other: model, data, parameters, objective, optimiser, solver,
-            start. Arrays enter it by their `digest`: printed they lose digits.
+        folder: made if it is missing.
+        identity: text that differs between searches: model, data, parameters, objective, optimiser, solver, start.
+            Arrays enter it by their `digest`, since printed arrays lose digits.
     """
 
     folder: Path
@@ -48,20 +48,20 @@ class Checkpoint:
         return hashlib.sha256(self.identity.encode()).hexdigest()
 
     def forget(self) -> None:
-        """Leave nothing to go on from; the lines stay until a search begins."""
+        """Delete the state; the lines stay until a search begins."""
         (self.folder / STATE).unlink(missing_ok=True)
 
     def begin(self) -> None:
-        """Empty the log of what an earlier search left."""
+        """Delete state and lines of an earlier search."""
         self.folder.mkdir(parents=True, exist_ok=True)
         self.forget()
         write_file(self.folder / LINES, "")
 
     def load(self) -> State | None:
-        """Where the search stood, or None where there is nothing to go on from.
+        """The last state, or None if there is none.
 
         Raises:
-            BadInput: the log belongs to another search.
+            BadInput: the state belongs to another search.
         """
         path = self.folder / STATE
         if not path.is_file():
@@ -81,7 +81,7 @@ class Checkpoint:
         return State(best, head["tried"], float(arrays["first_cost"]), memory, outcome, head["message"])
 
     def write(self, state: State, trial: Point, values: dict[str, float]) -> None:
-        """Add a point; the state is replaced only once the line stands."""
+        """Add the line of a point, then replace the state."""
         line = {
             "iteration": state.tried,
             "cost": trial.cost if math.isfinite(trial.cost) else None,
@@ -113,7 +113,7 @@ class Checkpoint:
         return buffer.getvalue()
 
     def _forget_after(self, tried: int) -> None:
-        """A line whose state was never written stands for a point that is tried again."""
+        """Delete lines after point number `tried`: the search was killed before their state was written."""
         path = self.folder / LINES
         lines = path.read_text(encoding="utf-8").splitlines() if path.is_file() else []
         keep = []
@@ -122,7 +122,7 @@ class Checkpoint:
                 if json.loads(line)["iteration"] <= tried:
                     keep.append(line)
             except (json.JSONDecodeError, KeyError):
-                break  # half a line, from the moment of the kill
+                break  # a line that was cut off when the search was killed
         write_file(path, "".join(f"{line}\n" for line in keep))
 
 
@@ -130,7 +130,7 @@ _PLAIN = ("x", "cost", "residual", "jacobian", "levels", "squares", "known", "mo
 
 
 def _arrays(point: Point) -> dict[str, Array]:
-    """A point as named arrays; what a run has not is left out."""
+    """A point as named arrays; what a run does not have is left out."""
     found = {name: np.asarray(getattr(point, name)) for name in _PLAIN}
     values = (*point.carried.states, point.carried.nuisances)
     for i, (value, step) in enumerate(zip(values, point.steps or (None,) * len(values), strict=True)):
@@ -142,7 +142,7 @@ def _arrays(point: Point) -> dict[str, Array]:
 
 
 def _point(arrays: Mapping[str, Array]) -> Point:
-    """What `_arrays` made arrays of."""
+    """The inverse of `_arrays`."""
     values, steps = [], []
     for i in range(int(arrays["count"])):
         values.append(arrays.get(f"carried_{i}"))
@@ -154,15 +154,15 @@ def _point(arrays: Mapping[str, Array]) -> Point:
     return Point(**plain, carried=carried, steps=tuple(steps))
 
 
-# What a record says of itself, which no residual depends on.
+# Fields of a record that no residual depends on.
 _SAID = ("origin", "message", "statistics")
 
 
 def digest(content: object) -> str:
-    """What only the same content has, to the last bit: dataclasses, mappings, rows, arrays, numbers and texts.
+    """SHA-256 of nested dataclasses, mappings, tuples, lists, arrays, numbers and texts, exact to the last bit.
 
     Raises:
-        TypeError: something else is among it.
+        TypeError: content of another type.
     """
     found = hashlib.sha256()
     for part in _exact(content):
@@ -171,7 +171,7 @@ def digest(content: object) -> str:
 
 
 def _exact(content: object) -> Iterator[bytes]:
-    """Every value behind its kind and size, so that nothing else reads the same."""
+    """Bytes of the content, each value after its type and size, so that different contents give different bytes."""
     if isinstance(content, np.ndarray):
         yield f"array {content.dtype.str} {content.shape}\n".encode()
         yield content.tobytes()

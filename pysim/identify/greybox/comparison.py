@@ -1,4 +1,4 @@
-"""The fitted model beside every record, those too that were not fitted."""
+"""Comparison of the fitted model with all measurements, including those that were not fitted."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Compared:
-    """Everything at one point: logs, responses, the runs over time; why some records are not there, and how many; by id
-    of a run where its orbit is, or the offset of its free states from rest."""
+    """Compared logs and responses, and experiments of the runs over time; notes on records that could not be simulated,
+    and their number; `states`: id of a run -> its orbit's state, or the offset of its initial states from rest."""
 
     records: tuple[RecordFit, ...]
     responses: tuple[ResponseFit, ...]
@@ -40,15 +40,14 @@ def compared(
     given: Mapping[int, Simulated] | None = None,
     errors: SensorErrors = (),
 ) -> Compared:
-    """Simulate every observation at x (n,); one that cannot be simulated is noted and left out.
+    """Simulate every observation at x (n,); one that cannot be simulated is left out, with a note.
 
-    Initial states of logs that were not fitted are estimated from these logs themselves: they say where the plant
-    stood, and nothing of its parameters.
+    Initial states of logs that were not fitted are estimated from these logs themselves, with the parameters held.
 
     Args:
-        carried: id of a run -> where its orbit is sought or its log begins, of the runs that were fitted.
-        given: id of a run -> what it gave at x, so that it need not be simulated again.
-        errors: of sensors; the model is shown as they show it.
+        carried: id of a fitted run -> first guess of its orbit's state, or the offset of its initial states from rest.
+        given: id of a run -> its result at x, which is then not simulated again.
+        errors: sensor errors that are applied to the model's signals.
     """
     known = dict(carried or {})
     residuals = replace(problem.residuals(simulation=simulation, use="validate"), known=tuple(errors))
@@ -74,7 +73,7 @@ def compared(
 
 
 def with_noise(record: RecordFit, noise: Mapping[Channel, float]) -> RecordFit:
-    """The record with its residual counted in these standard deviations; those of other channels as they are."""
+    """The record with these standard deviations of the noise; channels that are not in `noise` keep theirs."""
     own = zip(record.measured.names, record.noise, strict=True)
     sizes = tuple(noise.get((record.dataset, name), size) for name, size in own)
     if sizes == record.noise:
@@ -91,7 +90,7 @@ def _simulated(
     known: Mapping[int, Array | None],
     given: Mapping[int, Simulated],
 ) -> list[tuple[Observation, tuple[Simulated, ...], Failure | None]]:
-    """All observations that are not given, at once; where that fails, one by one."""
+    """Simulate the observations that are not in `given`, all at once; if that fails, one by one."""
 
     def answers(observations: Sequence[Observation]) -> tuple[list[Simulated], Failure | None]:
         runs = [run for one in observations for run in one.runs]
@@ -115,5 +114,5 @@ def _simulated(
 
 
 def _is_whole(simulated: Simulated | None) -> bool:
-    """Whether a run was simulated and kept its rows."""
+    """Whether a run was simulated and its rows were not reduced."""
     return simulated is not None and simulated.reduction is None

@@ -1,4 +1,4 @@
-"""One data set beside one model: names, units, noise, and how long the model takes to settle."""
+"""One data set and one model: names, units, noise, and the model's settling time."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ _SETTINGS = RestSettings()
 
 
 def on_one_clock(dataset: Dataset) -> Dataset:
-    """A data set whose clock begins with its first log where it was a date: that rounds the steps of a run away."""
+    """The data set with its clock set to 0 at the first log if times are dates, which would round away small steps."""
     first = min((record.begin for record in dataset.records if record.begin is not None), default=0.0)
     if abs(first) < BeginningSettings().date:
         return dataset
@@ -30,14 +30,14 @@ def on_one_clock(dataset: Dataset) -> Dataset:
 
 @dataclass(frozen=True)
 class Context:
-    """Everything that making the observations of one data set needs.
+    """What is needed to make the observations of one data set.
 
     Args:
-        overrides: parameters that differ from the model's own in these tests.
+        overrides: parameters that differ from the nominal ones in these tests.
         outputs: columns that are compared.
-        noise: of each of them, standard deviation in its unit.
-        started: records whose states are free parameters, None for all: their model does not come to rest first.
-    """
+        noise: standard deviation of each of these columns, in its unit.
+        started: records with initial states among the free parameters, None for all records; the model does not settle
+            before these."""
 
     model: Model
     dataset: Dataset
@@ -58,37 +58,37 @@ class Context:
         return commands, outputs
 
     def variable(self, column: str) -> str:
-        """The model's name of a column, once both have the same unit."""
+        """Name of a column's variable in the model, whose unit must be that of the column."""
         return self.model.measured(self.dataset.signal(column), f"data set {self.dataset.name!r}").name
 
     def experiment(
         self, times: Array, outputs: tuple[str, ...], commands: Mapping[str, Signal], start: float, later: float = 0.0
     ) -> Experiment:
-        """A run of the model, everything by the model's names.
+        """A run of the model, with the model's names.
 
         Args:
-            later: s by which all of it is moved, so that the model's `time` is the clock of all records.
+            later: s by which all times are moved, so that the model's `time` is the common clock of all records.
         """
         names = tuple(self.variable(column) for column in outputs)
-        if later:  # a long log is not copied for nothing
+        if later:  # otherwise a long log is not copied
             times, start = times + later, start + later
             commands = {name: signal.later(later) for name, signal in commands.items()}
         return Experiment(times, names, commands, self.overrides, start, rates=self.model.rate_inputs(commands))
 
     def first_value(self, name: str) -> float:
-        """An input's start value, at which the model starts."""
+        """An input's start value in the model; 0 if it has none."""
         return float(self.model[name].start or 0.0)
 
     @cached_property
     def longest(self) -> float:
-        """s, of the longest log, or of some periods of the slowest sine of a table."""
+        """Longest duration in s of a log, and of a few periods at the lowest frequency of a response table."""
         lasts = [float(np.ptp(log.data.time)) for log in self.dataset.logs() if isinstance(log.data, Record)]
         lasts += [_SETTINGS.periods / float(response.frequency[0]) for response in self.dataset.responses()]
         return max(lasts, default=0.0)
 
     @cached_property
     def _left_alone(self) -> Sensitivities | None:
-        """What is compared while the model is left alone from its start on, for as long as the longest log."""
+        """Compared outputs of the model from its start values, inputs constant, and their derivatives by each state."""
         names = tuple(dict.fromkeys(self.variable(column) for column in self.outputs))
         count = len(self.model.abilities.states)
         if not (count and names and self.longest > 0):
@@ -101,10 +101,10 @@ class Context:
 
     @property
     def still(self) -> bool:
-        """Whether the model stands still from its start on, its inputs at theirs.
+        """Whether the compared outputs stay constant from the model's start values on, with constant inputs.
 
-        Then it stands still too where a parameter or an effect moves its equilibrium, as the plant did before the log
-        began: it is given the time to come there.
+        If so, the model settles before each log, as the plant did: a parameter or an effect may move its equilibrium
+        away from the start values.
         """
         found = self._left_alone
         if found is None or found.record.outcome is not Outcome.DONE:
@@ -114,11 +114,10 @@ class Context:
 
     @cached_property
     def settling(self) -> float:
-        """s after which a small change of any state has died away from what is compared; at most the longest log.
+        """Settling time in s: when a small change of any state has faded from the compared outputs; at most `longest`.
 
-        Counted at the model's own start and parameters. A change that stays, as of the position behind an integrator,
-        does not count.
-        """
+        For the nominal parameters and start values. A change that stays, as of the position behind an integrator, does
+        not count. `longest` if the model cannot be simulated."""
         found = self._left_alone
         if found is None:
             return 0.0

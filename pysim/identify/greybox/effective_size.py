@@ -1,4 +1,4 @@
-"""How many independent samples residuals are worth that depend on those before them."""
+"""Effective sample size of autocorrelated residuals."""
 
 from __future__ import annotations
 
@@ -9,20 +9,20 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_FEW = 1024  # lags that are looked at first
+_FEW = 1024  # lags that are computed first
 
 
 def inflation(left: Sequence[Array], changed: Sequence[Array]) -> float:
-    """By how much the colour of what is left inflates the variance of a sum over samples: lambda, at least 1.
+    """Factor lambda >= 1 by which autocorrelation of the residual inflates a variance; n/lambda is the effective size.
 
-    lambda = sum over lags of the two autocorrelations' product, up to the first negative one of what is left; n/lambda
-    is the effective sample size. Series of several channels are pooled, each weighted by the squares of its change.
+    lambda is the sum over lags of the product of two autocorrelations: that of the residual and that of the change. The
+    sum ends at the residual's first negative value. Channels are pooled, weighted by the squares of their change.
 
     Args:
         left: per log, residuals (n_t, n_y) over their levels.
         changed: per log, what a parameter or an effect changes in them (n_t, n_y).
-    Source: Bartlett 1946, Supplement to the Journal of the Royal Statistical Society 8:27; the end of the sum Geyer
-        1992, Statistical Science 7:473.
+    Source: Bartlett 1946, Supplement to the Journal of the Royal Statistical Society 8:27; for the end of the sum,
+        Geyer 1992, Statistical Science 7:473.
     """
     if not left:
         return 1.0
@@ -34,7 +34,7 @@ def inflation(left: Sequence[Array], changed: Sequence[Array]) -> float:
     found = 0.0
     for j in range(channels):
         count, end = 0, 1
-        while end > count and count < lags:  # most residuals forget soon: few lags at first
+        while end > count and count < lags:  # most autocorrelations fade soon: few lags at first
             count = min(max(_FEW, 4 * count), lags)
             of_left = _products([rest[:, j] for rest in left], count)
             negative = np.flatnonzero(of_left[1:] <= 0)
@@ -48,10 +48,10 @@ def inflation(left: Sequence[Array], changed: Sequence[Array]) -> float:
 
 
 def independent_pieces(residual: Array, shortest: float) -> int:
-    """Into how many stretches a log's residual (n_t, n_y) can be cut that are independent of each other.
+    """Number of stretches of a log's residual (n_t, n_y) that count as independent of each other, at least 1.
 
     Args:
-        shortest: length of a stretch, in memories of the slowest channel.
+        shortest: length of a stretch in units of lambda of the slowest channel, its autocorrelation time in samples.
     """
     mean = [np.ones((len(residual), 1))]
     slowest = max(inflation([column], mean) for column in np.split(residual, residual.shape[1], axis=1))
@@ -67,7 +67,7 @@ def _products(rows: Sequence[Array], count: int) -> Array:
 
 
 def _own_products(row: Array, lags: int) -> Array:
-    """The same of one row, by FFT, in parts of it."""
+    """Sums over t of row[t] row[t + k] for k = 0 ... lags - 1, by FFT of overlapping parts of the row."""
     size = max(1 << int(np.ceil(np.log2(2 * lags))), min(8 * _FEW, 2 << int(np.log2(row.size))))
     step, power = size - lags, np.zeros(size // 2 + 1, dtype=np.complex128)
     for first in range(0, row.size, step):

@@ -32,22 +32,22 @@ from pysim.types import BadInput, Estimate, Fit, FitOutcome, Note, NoteCode, Sta
 
 Array = NDArray[np.float64]
 
-# Standard deviation of the median of normal errors over that of their mean: what sums of sizes cost.
+# Standard deviation of the median of normal errors over that of their mean: what a sum of absolute values loses.
 _SIZES = math.sqrt(math.pi / 2)
 
 
 @dataclass(frozen=True)
 class Effort:
-    """How hard a fit tries, and where it writes its log.
+    """Number and kind of the searches of a fit, and their checkpoints.
 
     Args:
-        starts: searches from starts drawn at random, besides the given and the nominal one.
-        seed: of the draw.
-        nominal: search from the model's own values too, where the given start is another. A fit that starts from a
-            biased optimum may never leave it; leave this out only where the start is trusted.
-        rough: begin with rough simulations; leave this out where their errors are known to count.
-        log: folder for a log per search; None keeps none.
-        resume: go on where the log of a killed fit ends; it has to be one of the same problem, to the last bit.
+        starts: number of searches from random starts, besides the given and the nominal one.
+        seed: seed of the random starts.
+        nominal: also search from the nominal values if the given start differs from them. A fit that starts in a
+            biased optimum may never leave it, so turn this off only if the start is trusted.
+        rough: search with rough simulations first; turn this off if their errors are known to matter.
+        log: folder with a checkpoint for each search; None keeps none.
+        resume: go on from the checkpoints of a killed fit, which must have had exactly the same input.
     """
 
     starts: int = 0
@@ -73,20 +73,20 @@ def fit(
     effort: Effort | None = None,
     progress: Progress | None = None,
 ) -> Fit:
-    """Find the parameters with which the model is nearest to its measurements, and say how well they are known.
+    """Estimate the parameters that minimise the objective, and their intervals.
 
     Args:
         problem: model, measurements, parameters.
         objective: what is minimised.
-        optimiser: Gauss-Newton for sums of squares, the interior-point method for sums of sizes, where None.
-        simulation: solver and where the runs go.
-        effort: how many starts; log and resume.
-        progress: called after every point; what it raises ends the fit, which can be resumed from its log.
+        optimiser: None takes Gauss-Newton for sums of squares, the interior-point method for sums of absolute values.
+        simulation: solver settings, and the workers that simulate.
+        effort: number of starts; checkpoints and resume.
+        progress: called after every point; an exception in it ends the fit, which can be resumed from its checkpoint.
     Returns:
-        the best of all searches. The other records are compared, never fitted.
+        the best of all searches. Records with another use than "fit" are compared with the model, but never fitted.
     Raises:
         BadInput: nothing free, nothing to fit for this objective, an optimiser that cannot minimise it, a model that
-            could not be simulated at any start, or the log of another fit to resume.
+            could not be simulated at any start, or a checkpoint of another fit to resume.
     """
     if not problem.space.size:
         raise BadInput("fit: name at least one free parameter")
@@ -98,7 +98,7 @@ def fit(
             "values; choose the interior-point optimiser"
         )
     begun = starts(problem.model, problem.space, effort.starts, effort.seed, nominal=effort.nominal)
-    objective.chosen(problem.observations)  # what it refuses is refused before an earlier log is given up
+    objective.chosen(problem.observations)  # raises before the checkpoints of an earlier fit are deleted
     _forget_earlier(effort, begun)
     searches = _Searches(problem, objective, optimiser, simulation, effort, progress)
     with one_blas_thread():
@@ -114,7 +114,7 @@ def fit(
 
 
 def fit_at(problem: Problem, values: Mapping[str, float], simulation: Simulation | None = None) -> Fit:
-    """The fit whose search ended at these values of what is free: all that follows from them, and nothing is searched.
+    """The fit with given values of the free parameters, without a search; only initial states are estimated.
 
     Raises:
         BadInput: the model cannot be simulated there.
@@ -130,7 +130,7 @@ def fit_at(problem: Problem, values: Mapping[str, float], simulation: Simulation
 
 
 def _forget_earlier(effort: Effort, begun: Mapping[str, Array]) -> None:
-    """A fit that begins anew and is killed is not to meet, in searches it never came to, what an earlier one left."""
+    """Delete the states of an earlier fit: resuming this one must not find them in searches it had not reached."""
     if effort.log is None or effort.resume:
         return
     for name in begun:
@@ -139,12 +139,12 @@ def _forget_earlier(effort: Effort, begun: Mapping[str, Array]) -> None:
 
 
 def _polish_of(name: str) -> str:
-    """What the search is called that goes on from the end of this one."""
+    """Name of the search with fine simulations that goes on from the end of this one."""
     return f"{name}-polished"
 
 
 def _worth_polishing(good: Mapping[str, State], best: str) -> list[str]:
-    """The best search, and those that ended elsewhere at a cost that rough simulations do not tell from its own."""
+    """The best search, and those that ended at other parameters with a cost too close to rank by rough simulations."""
     chosen, alike = [best], FitSettings().alike
     for name, state in good.items():
         here, there = state.best, good[best].best
@@ -157,7 +157,7 @@ def _worth_polishing(good: Mapping[str, State], best: str) -> list[str]:
 
 @dataclass(frozen=True)
 class _Searches:
-    """What all searches of a fit have in common."""
+    """The common input of all searches of a fit."""
 
     problem: Problem
     objective: Objective
@@ -167,21 +167,21 @@ class _Searches:
     progress: Progress | None
 
     def rough(self, begun: Mapping[str, Array]) -> Mapping[str, State]:
-        """A rough search from every start, one after the other: each uses all cores itself."""
+        """A search with rough simulations from every start, one after another, since each search uses all cores."""
         optimiser, simulation = self.optimiser.rough() if self.effort.rough else None, self.simulation.rough()
         if optimiser is None:
             optimiser, simulation = self.optimiser, self.simulation
         return {name: self._search(optimiser, simulation, name, x) for name, x in begun.items()}
 
     def polished(self, name: str, best: State) -> State:
-        """The end of a rough search, gone on with by fine simulations from where its next step leads."""
+        """Continue a rough search with fine simulations, from the point that its next step leads to."""
         if self.optimiser.rough() is None or not self.effort.rough:
             return best
         optimiser, simulation, problem = self.optimiser.finer(best), self.simulation.searching(), self.problem
         residuals, bounds = problem.residuals(self.objective, simulation), Bounds(*problem.space.bounds())
 
         def first() -> Point:
-            """The step's end, unless the rough one is better."""
+            """The end of that step, or the end of the rough search if its cost is lower."""
             step = optimiser.propose(optimiser.begin(best.best, bounds, self.objective.squares), bounds)
             carried = best.best.carried_to(step.x, step.share)
             ahead = residuals.evaluate(problem.model, problem.space, step.x, carried)
@@ -221,7 +221,7 @@ class _Searches:
         )
 
     def _checkpoint(self, optimiser: Optimiser, simulation: Simulation, name: str, start: Array) -> Checkpoint | None:
-        """Of this search only: of no other data, however little they differ."""
+        """The checkpoint of this search; its identity holds all input, data included, to the last bit."""
         if self.effort.log is None:
             return None
         problem = self.problem
@@ -290,7 +290,7 @@ def _result(
 
 
 def _of_sizes(doubt: Uncertainty) -> Uncertainty:
-    """Intervals of the least sum of sizes, which knows less than that of squares."""
+    """Intervals for a least sum of absolute values, which are wider than those of least squares."""
     estimates = []
     for one in doubt.estimates:
         low, high = (one.value + _SIZES * (end - one.value) for end in one.interval)
@@ -300,7 +300,7 @@ def _of_sizes(doubt: Uncertainty) -> Uncertainty:
 
 
 def _interval_notes(doubt: Uncertainty) -> list[Note]:
-    """What a reader must know of the intervals."""
+    """Notes: intervals from blocks and from white noise that differ much, and too few blocks for intervals."""
     settings, notes = FitSettings(), []
     widths = {one.name: ratio for one, ratio in zip(doubt.estimates, doubt.ratio.tolist(), strict=True)}
     apart = {n: r for n, r in widths.items() if math.isfinite(r) and not 1 / settings.apart <= r <= settings.apart}
@@ -319,11 +319,11 @@ def _outcome(state: State) -> FitOutcome:
 def _at_levels(
     residuals: WeightedResiduals, problem: Problem, objective: Objective, optimiser: Optimiser, state: State
 ) -> tuple[Point, tuple[Simulated, ...]]:
-    """The optimum simulated once more, as finely as intervals need it, and counted in the levels of its residuals; with
-    what was simulated.
+    """The optimum, simulated again as accurately as intervals need it, with its residuals over their levels; and the
+    simulated signals, none if the model could not be simulated.
 
-    Of a smooth objective it is where the next step leads, which promises less than the tolerance and is taken for
-    nothing; the end of the search where that is worse, and where steps from it were seen to fail.
+    For a smooth objective the point is where the next step leads, since this costs no further simulation. The end of
+    the search is taken if that point is worse, or if steps from the end have failed before.
     """
     best, model, space = state.best, problem.model, problem.space
     if optimiser.smooth_only and objective.measure is Measure.SIGNAL and not state.memory.get("turned"):

@@ -1,4 +1,4 @@
-"""A steady swing as mean and harmonics: of samples at any times, and of a periodic orbit at the same times."""
+"""Mean and harmonics of a steady oscillation, from samples at any times; a periodic orbit at the same times."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ def regressors(phase: Array, count: int) -> Array:
 def interpolation(phase: Array, points: int) -> Array:
     """Weights (n_t, points) that give a periodic signal at phases (n_t,) rad from equidistant samples over one period.
 
-    Exact for every harmonic below points / 2; what lies above is folded down as sampling does.
+    Exact for every harmonic below points / 2; higher ones are aliased.
 
     Source: Henrici 1979, Numerische Mathematik 33:225 (barycentric formula).
     """
     half, node = 0.5 * phase, np.pi * np.arange(points) / points
     sides = np.column_stack([np.sin(half), np.cos(half)])
     nearest = np.round(half * (points / np.pi))
-    met = np.abs(np.sin(half - nearest * (np.pi / points))) <= 1e-12  # a phase that falls on a sample
+    met = np.abs(np.sin(half - nearest * (np.pi / points))) <= 1e-12  # phases that coincide with a sample
     own = np.flatnonzero(met), (nearest[met] % points).astype(np.intp)
     sin = sides @ np.stack([np.cos(node), -np.sin(node)])
     sin[own] = 1.0
@@ -39,11 +39,11 @@ def interpolation(phase: Array, points: int) -> Array:
 
 
 def to_complex(coefficients: Array) -> NDArray[np.complex128]:
-    """(2 n + 1, ...) of `regressors` -> (n + 1, ...): the mean, then a exp(j phi) of a sin(k phase + phi)."""
+    """Coefficients (2 n + 1, ...) of `regressors` -> (n + 1, ...): mean, then a exp(j phi) for a sin(k phase + phi)."""
     swings = coefficients[1::2] + 1j * coefficients[2::2]
     return np.concatenate([coefficients[:1].astype(complex), swings])
 
 
 def harmonic_count(frequency: float, rate: float, most: int) -> int:
-    """How many harmonics of `frequency` (Hz) samples at `rate` (Hz) tell apart, at least one and `most` at most."""
+    """Number of harmonics of `frequency` (Hz) below 0.45 of the sampling `rate` (Hz), from one to `most`."""
     return max(1, min(most, int(0.45 * rate / frequency)))

@@ -1,4 +1,4 @@
-"""Which products of powers of the parameters the data cannot tell, read from the sensitivities."""
+"""Identifiability: products of powers of the parameters that the data do not determine, from the Jacobian."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from pysim.types import Direction
 
 Array = NDArray[np.float64]
 
-# A direction is undetermined where its singular value is below this share of the largest: above what the sensitivities'
-# own error leaves of a true zero, and below what measurements tell apart.
+# A direction is undetermined if its singular value is below this share of the largest. A true zero comes out smaller,
+# in spite of errors of the Jacobian; directions that measurements determine have larger values.
 EXACT = 1e-5
-# Directions known to no better than this standard deviation (of ln s) are worth a mention.
+# Directions are reported if the standard deviation of ln s along them is at least this.
 LOOSE = 0.2
-_WHOLE = 0.02  # how near a ratio of exponents has to be to a small fraction to be called that fraction
+_WHOLE = 0.02  # difference from a small fraction within which a ratio of exponents is rounded to that fraction
 
 
 @dataclass(frozen=True)
 class Identifiability:
-    """What the sensitivities say.
+    """Directions in parameter space that the data determine badly or not at all.
 
     Args:
-        exact: (n, n_0) a basis of directions of ln(p) that change nothing, in a form with many zeros.
-        directions: these, then those known badly, each with its standard deviation.
+        exact: (n, n_0) sparse basis of the directions of ln(p) that change no residual.
+        directions: these, then the badly determined ones, each with its standard deviation.
     """
 
     exact: Array
@@ -35,12 +35,12 @@ class Identifiability:
 
 
 def identifiability(keys: Sequence[str], slopes: Array, *, noise: float = 1.0) -> Identifiability:
-    """Find the directions that the data leave open.
+    """Find the directions that the data do not determine, by singular values of the Jacobian.
 
     Args:
-        keys: (n) parameters.
-        slopes: (n_r, n) of the residuals, in standard deviations, by ln(p).
-        noise: standard deviations of the residuals in units of themselves: the misfit where that is above one.
+        keys: names of the n parameters.
+        slopes: (n_r, n) Jacobian by ln(p) of the residuals, which are in standard deviations.
+        noise: actual standard deviation of these residuals; above 1 if the model leaves more than noise.
     """
     empty = np.zeros((max(len(keys) - slopes.shape[0], 0), len(keys)))
     triangle = np.linalg.qr(np.vstack([slopes, empty]), mode="r")  # as many rows as parameters, not as residuals
@@ -54,7 +54,7 @@ def identifiability(keys: Sequence[str], slopes: Array, *, noise: float = 1.0) -
 
 
 def _sparse(basis: Array) -> Array:
-    """The same space (n, n_0) by reduced columns: each has a 1 where all others have a 0."""
+    """Another basis of the same space (n, n_0), in reduced column form: each column has a 1 where the others have 0."""
     basis = basis.copy()
     pivots: list[int] = []
     for j in range(basis.shape[1]):
@@ -74,7 +74,7 @@ def _exact_direction(keys: Sequence[str], direction: Array) -> Direction:
 
 
 def _loose_direction(keys: Sequence[str], row: Array, spread: float) -> list[Direction]:
-    """Scaled so that the parameter that changes most has the exponent 1."""
+    """The direction, scaled to exponent 1 for the parameter that changes most; none if it is known well enough."""
     top = int(np.argmax(np.abs(row)))
     direction, spread = row / row[top], spread * abs(row[top])
     if spread < LOOSE:
@@ -84,7 +84,7 @@ def _loose_direction(keys: Sequence[str], row: Array, spread: float) -> list[Dir
 
 
 def whole_exponents(keys: Sequence[str], direction: Array) -> dict[str, float]:
-    """Exponents scaled so that the smallest is 1 or, where that makes all of them small fractions, those."""
+    """Exponents of the parameters, the smallest scaled to 1; rounded to small fractions if all are close to such."""
     large = np.abs(direction) > _WHOLE * np.max(np.abs(direction))
     unit = direction[large][np.argmin(np.abs(direction[large]))]
     ratios = np.where(large, direction / unit, 0.0)

@@ -1,4 +1,4 @@
-"""Where logs began whose initial states were estimated from themselves, and how well that is known."""
+"""Estimates and intervals of the unknown initial states of logs."""
 
 from __future__ import annotations
 
@@ -29,16 +29,16 @@ def initial_states(
     offsets: Mapping[int, Array | None],
     simulation: Simulation,
 ) -> tuple[Estimate, ...]:
-    """The states at the first sample of every log of which nothing else says where it began, those not fitted too.
+    """States at the first sample of every log with unknown initial states, logs that were not fitted included.
 
-    They were eliminated from the fit, so their doubt has two parts: that of the log, were the parameters known, and
-    that of the parameters, which they follow. The colour of the residual widens the first.
+    Their variance has two parts: that for known parameters, times lambda of the coloured residual, and that which the
+    parameters' uncertainty adds. States that the log does not determine get an infinite standard deviation.
 
     Args:
-        x: (n,) of the fit in the search's numbers.
-        covariances: (n, n) of these, and with the ends of their intervals in place of standard deviations.
-        levels: what residuals of a channel are counted in.
-        offsets: id of a run -> its free states less those at rest.
+        x: (n,) search coordinates of the fit.
+        covariances: (n, n) of x; and the same with half widths of intervals in place of standard deviations.
+        levels: channel -> standard deviation that its residuals are divided by.
+        offsets: id of a run -> its initial states less those at rest.
     """
     found: list[Estimate] = []
     for one in problem.observations:
@@ -75,14 +75,14 @@ def _of_log(
     inverse = (vt[held].T / sigma[held]) @ u[:, held].T
     begins = first.simulated[0]
     follow = begins.slopes[0] - begins.by_initial[0] @ inverse @ by_x
-    back = begins.by_initial[0] @ inverse  # (n_s, n_r) how an error of each row moves the states
+    back = begins.by_initial[0] @ inverse  # (n_s, n_r) derivative of the states by the residual's rows
     colour = np.ones(len(names))
     if table.reduction is None:
         shape = (-1, len(one.channels))
         colour = np.array([inflation([rows[:, 0].reshape(shape)], [own.reshape(shape)]) for own in back])
     own_variance = colour * np.sum(back**2, axis=1)
     followed = [np.sum((follow @ covariance) * follow, axis=1) for covariance in covariances]
-    unseen = np.sum(vt[~held] ** 2, axis=0) > EXACT  # a share of it moves nothing that was measured
+    unseen = np.sum(vt[~held] ** 2, axis=0) > EXACT  # states with a share in an undetermined direction
     std = np.where(unseen, math.inf, np.sqrt(own_variance + followed[0]))
     half = np.where(unseen, math.inf, np.sqrt(HALF_95**2 * own_variance + followed[1]))
     value, rest = begins.values[0], begins.values[0] - begins.by_initial[0] @ offset

@@ -1,4 +1,4 @@
-"""The thesis' interior-point method: a logarithmic barrier at every bound, absolute values by slacks."""
+"""The thesis' interior-point method: a logarithmic barrier at every bound, slack variables for absolute values."""
 
 from __future__ import annotations
 
@@ -22,21 +22,21 @@ _NEWTON_END = 1e-10
 
 @dataclass(frozen=True)
 class InteriorPoint:
-    """Minimises f(x) - mu (sum ln(U - x) + sum ln(x - L)) for a mu that goes to zero.
+    """Minimises f(x) - mu (sum ln(U - x) + sum ln(x - L)) for decreasing mu, with bounds L and U.
 
-    A sum of sizes |r_i| is the smallest sum of slacks s_i with -s_i <= r_i <= s_i. Their barrier
-    s_i - mu (ln(s_i - r_i) + ln(s_i + r_i)) is least at s_i = mu + sqrt(mu^2 + r_i^2), which takes the slacks out
-    of the problem: what is left is smooth and has the parameters only. Each step minimises the barrier function with
-    the residuals made linear, which costs no simulation, and is held in by damping.
+    A sum of absolute values |r_i| is the smallest sum of slacks s_i with -s_i <= r_i <= s_i. Their barrier
+    s_i - mu (ln(s_i - r_i) + ln(s_i + r_i)) is minimal at s_i = mu + sqrt(mu^2 + r_i^2). This eliminates the slacks,
+    and a smooth problem in the parameters alone remains. Each step minimises the barrier function with linearised
+    residuals, which costs no simulation, and is limited by damping.
 
     Args:
         max_iterations: points to try.
-        tolerance: how far the cost may be above that of the optimum, as a share of it: 2 n_r mu at the end.
-        reduction: of mu, each time its problem is solved.
+        tolerance: largest relative excess of the cost over the optimum; the duality gap at the end is 2 n_r mu.
+        reduction: factor on mu, each time its problem is solved.
     Raises:
         BadInput: a setting out of range.
-    Source: thesis Eq. 2.22 and 2.23, in the scaled numbers of the search. Damping: Nielsen 1999, Damping parameter in
-    Marquardt's method, IMM-REP-1999-05.
+    Source: thesis Eq. 2.22 and 2.23, in search coordinates. Damping: Nielsen 1999, Damping parameter in Marquardt's
+    method, IMM-REP-1999-05.
     """
 
     max_iterations: int = 200
@@ -53,14 +53,14 @@ class InteriorPoint:
             )
 
     def rough(self) -> None:
-        """Nothing: a search that goes on starts far from the bounds again."""
+        """None: a second search would have to start far from the bounds again."""
 
     def finer(self, end: State) -> InteriorPoint:
-        """Never asked, for lack of a rough search."""
+        """Never called, since there is no rough search."""
         return self
 
     def first(self, x: Array, bounds: Bounds) -> Array:
-        """Moved off the bounds, where the barrier is infinite."""
+        """The start, moved off the bounds, where the barrier is infinite."""
         width = bounds.upper - bounds.lower
         gap = _INSIDE * np.where(np.isfinite(width), width, 1.0)
         return np.clip(x, bounds.lower + gap, bounds.upper - gap)
@@ -100,7 +100,7 @@ class InteriorPoint:
         return self._counted(replace(state, memory={**state.memory, "damping": damping, "growth": growth}))
 
     def _examined(self, state: State, bounds: Bounds, *, solved: bool = False) -> State:
-        """Lower mu as long as its problem is solved well enough; end where the gap is small enough."""
+        """Reduce mu while its problem is solved accurately enough; converged if the last mu's problem is solved too."""
         squares = state.memory["squares"] > 0
         cost, n = max(_measure(state.best, squares), np.finfo(float).tiny), state.best.residual.size
         last = self.tolerance * cost / (2 * n)
@@ -130,37 +130,37 @@ class InteriorPoint:
 
 
 def _measure(point: Point, squares: bool) -> float:
-    """The sum that is minimised, levels held."""
+    """The sum that is minimised, with constant levels of the residuals."""
     return 0.5 * point.square if squares else point.cost
 
 
 def _size(point: Point) -> float:
-    """What damping is measured by: the largest curvature of a sum of sizes near its start."""
+    """Scale of the damping: the largest curvature of the sum of absolute values, to order of magnitude."""
     spread = float(np.mean(np.abs(point.residual))) or 1.0
     return float(np.max(np.sum(point.jacobian**2, axis=0))) / spread
 
 
 @dataclass(frozen=True)
 class _Barrier:
-    """The barrier function for one mu, as a function of residuals and point."""
+    """The barrier function for one mu, in terms of residuals and search coordinates."""
 
     bounds: Bounds
     mu: float
     squares: bool
 
     def value(self, point: Point) -> float:
-        """At a point that was simulated."""
+        """Its value at a simulated point."""
         return (point.cost if self.squares else self._sum(point.residual)) + self._walls(point.x)
 
     def linear(self, point: Point, p: Array) -> float:
-        """At a step p (n,) from it, the residuals made linear."""
+        """Its value after a step p (n,) from the point, with linearised residuals."""
         ahead = self._sum(point.residual + point.jacobian @ p)
         if self.squares:
             ahead += point.cost - self._sum(point.residual)
         return ahead + self._walls(point.x + p)
 
     def step(self, point: Point, damping: float) -> Array:
-        """The minimum of `linear` + damping/2 |p|^2, by Newton's method; convex, so that there is one."""
+        """The step p (n,) that minimises `linear` + damping/2 |p|^2, a convex function, by Newton's method."""
         p = np.zeros(point.x.size)
         value = self.value(point)
         for _ in range(_NEWTON_STEPS):
@@ -181,7 +181,7 @@ class _Barrier:
         return p
 
     def _slopes(self, point: Point, p: Array, damping: float) -> tuple[Array, Array]:
-        """Gradient (n,) and Hessian (n, n) of what `step` minimises."""
+        """Gradient (n,) and Hessian (n, n) of the function that `step` minimises."""
         r, x = point.residual + point.jacobian @ p, point.x + p
         first, second = self._weights(r)
         below, above = x - self.bounds.lower, self.bounds.upper - x
@@ -190,7 +190,7 @@ class _Barrier:
         return gradient, (point.jacobian.T * second) @ point.jacobian + np.diag(walls)
 
     def _weights(self, r: Array) -> tuple[Array, Array]:
-        """First and second slope of each residual's part, (n_r,)."""
+        """First and second derivative of each residual's term by the residual, (n_r,)."""
         if self.squares:
             return r, np.ones_like(r)
         root = np.sqrt(self.mu**2 + r**2)
@@ -211,7 +211,7 @@ class _Barrier:
         return float(-self.mu * np.sum(np.log(ends)))
 
     def _share(self, x: Array, d: Array) -> float:
-        """The largest share of a step that stays inside."""
+        """The largest share (at most 1) of a step d (n,) that stays inside the bounds."""
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             room = np.where(d < 0, (self.bounds.lower - x) / d, (self.bounds.upper - x) / d)
         room = room[(d != 0) & np.isfinite(room)]

@@ -1,4 +1,4 @@
-"""How small a residual can be: specified by the data set, or estimated from the logs."""
+"""Measurement noise and noise floors of signals: specified by the data set, or estimated from the logs."""
 
 from __future__ import annotations
 
@@ -19,12 +19,12 @@ _GAIN = 70.0
 # Variance of a Hann-tapered ordinate averaged over its neighbours, over that of independent ones.
 # Source: Percival and Walden 1993, Spectral Analysis for Physical Applications, Section 6.8.
 _TAPER = 1.9
-_LEVELS = 4  # steps between values, below which a column is one that is switched
-_ORDINATES = 8  # a band of fewer says nothing
+_LEVELS = 4  # differences between values; a column with fewer is a switched signal, not a quantised one
+_ORDINATES = 8  # fewest ordinates of a periodogram's band
 
 
 def specified_noise(signal: MeasuredSignal) -> float | None:
-    """Standard deviation of noise and quantisation together, in the signal's unit; None where it is not specified."""
+    """Standard deviation of noise and quantisation together, in the signal's unit; None if it is not specified."""
     if signal.noise is None:
         return None
     size = signal.deviation
@@ -36,7 +36,7 @@ def specified_noise(signal: MeasuredSignal) -> float | None:
 def seen_noise(values: Array) -> float:
     """Standard deviation of white noise on a smooth signal (n_t,), from its fourth differences.
 
-    Robust against single events by the median; too large where the signal itself changes from sample to sample.
+    The median makes it robust against single events. It is too large if the signal itself changes between samples.
     """
     differences = np.diff(values, 4)
     if differences.size == 0:
@@ -48,17 +48,16 @@ def seen_noise(values: Array) -> float:
 def signal_noise(
     signal: MeasuredSignal, logs: Sequence[Array], given: Mapping[str, float], settings: NoiseSettings
 ) -> tuple[float, bool]:
-    """The noise of one signal, which no model has a say in, and whether it had to be estimated.
+    """Standard deviation of one signal's noise, independent of any model, and whether it was estimated from the logs.
 
-    It is what residuals are counted in, the same for every model beside these logs: the white part of the logs
-    themselves, as a signal that a plant gives is slow beside its sampling in some band. Of logs that are all too short
-    for that, the median of their fourth differences.
+    The estimate is the white part of the logs: in some frequency band the plant's own signal is negligible. If all logs
+    are too short for that, it comes from their fourth differences. Estimates are never below the noise floor.
 
     Args:
-        logs: its columns, (n_t,) each.
-        given: the caller's own numbers, which go first.
+        logs: columns of the signal, (n_t,) each.
+        given: name of a signal -> noise, which replaces what the data set specifies.
     Raises:
-        BadInput: neither specified nor to be estimated.
+        BadInput: the noise is not specified and cannot be estimated.
     """
     size = given.get(signal.name) or specified_noise(signal)
     if size is not None:
@@ -81,11 +80,11 @@ def noise_floor(
     settings: NoiseSettings,
     integration: float = 0.0,
 ) -> NoiseFloor:
-    """The least level of a signal's residual: a floor only, so that a wrong figure never becomes a weight.
+    """Smallest level that a signal's residual is divided by; only a floor, so that a wrong noise does not set weights.
 
     Args:
-        logs: its columns, (n_t,) each.
-        given: the caller's own noise by the signal's name, in place of what the data set specifies.
+        logs: columns of the signal, (n_t,) each.
+        given: name of a signal -> noise, which replaces what the data set specifies.
         integration: relative error of the simulation.
     """
     spread = max((float(np.ptp(log)) for log in logs), default=0.0)
@@ -100,19 +99,20 @@ def noise_floor(
 
 
 def _step(values: Array) -> float:
-    """The quantisation step that shows in a column (n_t,): the least difference of two of its values, if of many."""
+    """Quantisation step of a column (n_t,): the smallest difference of its values; 0 if it has few different values."""
     gaps = np.diff(np.unique(values))
     return float(gaps.min()) if gaps.size >= _LEVELS else 0.0
 
 
 def white_floor(residuals: Sequence[Array], settings: NoiseSettings) -> float | None:
-    """Standard deviation of the white part of one signal (n_t,) or its residual, per log; None where all are short.
+    """Standard deviation of the white part of one signal or its residual; None if all logs are too short.
 
-    The lowest of equal bands of the periodogram, pooled with all bands that are as low within their scatter: slow and
-    structured misfit lies in the others. A lower bound where the sensor has a low pass.
+    It is that of the lowest band of the periodogram, pooled with all bands that are as low within their scatter. Slow
+    and structured errors lie in the other bands. It is too low if the sensor has a low-pass filter.
 
-    Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70.
-    """
+    Args:
+        residuals: one (n_t,) per log.
+    Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70."""
     bands = settings.bands
     power, count = np.zeros(bands), np.zeros(bands)
     for rest in residuals:

@@ -1,4 +1,4 @@
-"""Errors of sensors and loggers: what makes measurements differ from a model though no physics is missing."""
+"""Sensor errors: measurements may differ from a model because of a sensor or logger, although no physics is missing."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from pysim.types import BadInput
 
 
 class NuisanceKind(Enum):
-    """What may be wrong with a channel."""
+    """Kind of a sensor error."""
 
     GAIN = "gain"  # share of the signal
     OFFSET = "offset"  # in the signal's unit
@@ -23,12 +23,12 @@ class NuisanceKind(Enum):
 
 @dataclass(frozen=True)
 class Nuisance:
-    """One error of one channel, off in every model until it is chosen.
+    """One sensor error of one channel.
 
     Args:
         kind: what is wrong.
-        dataset, signal: where.
-        prior_sd: standard deviation of its size before the data are seen: a share, the signal's unit, or s.
+        dataset, signal: the channel.
+        prior_sd: standard deviation of the Gaussian prior of its size around 0, in the unit of its kind.
     """
 
     kind: NuisanceKind
@@ -41,12 +41,12 @@ class Nuisance:
             raise BadInput(f"nuisance: {self.kind.value} of {self.signal} needs a size above 0, got {self.prior_sd}")
 
 
-# Errors of sensors, and how large each is.
+# Sensor errors with their sizes.
 SensorErrors = Sequence[tuple[Nuisance, float]]
 
 
 def gains(errors: SensorErrors, dataset: str, channels: Sequence[str]) -> NDArray[np.float64]:
-    """(n_c,) by which the sensors multiply each channel of a data set."""
+    """(n_c,) factors by which sensor errors of kind GAIN multiply the channels of a data set; 1 without an error."""
     found = np.ones(len(channels))
     for error, size in errors:
         if error.kind is NuisanceKind.GAIN and error.dataset == dataset and error.signal in channels:

@@ -1,4 +1,4 @@
-"""What a fit minimises: squares of residuals over their levels, or the thesis' sums of absolute deviations."""
+"""Objectives of a fit: squares of residuals over their levels, or the thesis' sums of absolute deviations."""
 
 from __future__ import annotations
 
@@ -12,14 +12,14 @@ from pysim.types import BadInput
 
 @dataclass(frozen=True)
 class Objective:
-    """One way to count how far a model is from its measurements.
+    """One objective function.
 
     Args:
-        name: short, as on the command line.
-        words: the same for a reader.
-        measure: in what residuals are counted: over their levels, or as the thesis counts deviations.
-        squares: their squares are summed up, else their sizes.
-        domains: of the observations that count.
+        name: as on the command line.
+        words: description for users.
+        measure: unit of the residuals: divided by their levels, or deviations as in the thesis.
+        squares: whether squares are summed up, or absolute values.
+        domains: domains of the observations that are fitted.
     """
 
     name: str
@@ -29,14 +29,14 @@ class Objective:
     domains: tuple[str, ...]
 
     def counts(self, observation: Observation) -> bool:
-        """Whether an observation has a part in it."""
+        """Whether an observation belongs to one of its domains."""
         return observation.domain in self.domains
 
     def chosen(self, observations: Sequence[Observation]) -> tuple[Observation, ...]:
-        """Observations to fit.
+        """The observations to fit: those with use "fit" in its domains.
 
         Raises:
-            BadInput: none counts.
+            BadInput: there are none.
         """
         found = tuple(one for one in observations if one.use == "fit" and self.counts(one))
         if not found:

@@ -1,4 +1,4 @@
-"""What a model is compared with: a log, the stepped sines of a test, or a table of a response."""
+"""Observations that a model is compared with: a log, the stepped sines of a test, or a frequency-response table."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ Array = NDArray[np.float64]
 
 
 class Measure(Enum):
-    """In what residuals are counted."""
+    """Unit of the residuals."""
 
-    SIGNAL = "signal"  # the signal's own unit; a response table over its standard deviations
+    SIGNAL = "signal"  # the signal's own unit; response tables: divided by their standard deviations
     THESIS = "thesis"  # percent over time (Eq. 2.24), 90/20 dB and degrees over frequency (Eq. 2.25)
 
 
@@ -32,11 +32,11 @@ class Run:
     Args:
         record: source of the log, which may have parameters of its own.
         experiment: a run over time; with `orbit`, the same test as a transient, recorded at the orbit's points.
-        orbit: the periodic steady state, where one is to be found first.
-        initial: (n_x,) standard deviation of the states at the log's start around rest: infinite where nothing is
-            known of them, 0 where they are held. All are held where it is empty.
-        begins: s, when the log starts.
-        measured: (n_t, n_y) what each row of a run over time is compared with; empty where it is not row by row.
+        orbit: periodic steady state to find, which is then used instead of `experiment`; None for a run over time.
+        initial: (n_x,) prior standard deviation of the initial states around rest: infinite if nothing is known of a
+            state, 0 if it is held at rest. Empty if all are held.
+        begins: start of the log in s.
+        measured: (n_t, n_y) measured rows of a run over time; empty if the comparison is not row by row.
     """
 
     record: str
@@ -48,16 +48,16 @@ class Run:
 
     @property
     def free(self) -> NDArray[np.intp]:
-        """Places of the states that are free at the log's start."""
+        """Indices of the states whose initial values are free."""
         return np.flatnonzero(self.initial)
 
     @property
     def begins_anywhere(self) -> bool:
-        """Whether nothing is known of some state at the log's start."""
+        """Whether some initial state is unknown: its prior has an infinite standard deviation."""
         return bool(np.isinf(self.initial).any())
 
     def over_time(self, overrides: Mapping[str, float], offset: Array | None) -> Experiment:
-        """The run over time with parameters set, its free states begun at an offset (n_s,) from rest, or at rest."""
+        """The run over time with parameters set and initial states at an offset (n_s,) from rest; None means at rest."""
         experiment = self.experiment.override(**overrides)
         if offset is None or not self.free.size:
             return experiment
@@ -68,13 +68,13 @@ class Run:
 
 @dataclass(frozen=True)
 class Simulated:
-    """Answer of a run.
+    """Result of a run.
 
     Args:
         values: (n_t, n_y) in the variables' units.
-        slopes: (n_t, n_y, n_x) by the search's numbers.
-        by_initial: (n_t, n_y, n_s) by the free states at the log's start.
-        reduction: what a long log became instead; then there are no rows.
+        slopes: (n_t, n_y, n_x) derivatives by the search coordinates.
+        by_initial: (n_t, n_y, n_s) derivatives by the free initial states.
+        reduction: QR triangles of the residual of a long log; the arrays above are then empty.
     """
 
     values: Array
@@ -84,7 +84,7 @@ class Simulated:
 
 
 class Observation(Protocol):
-    """Measurements in the form in which the model is compared with them. Only its own file knows its kind."""
+    """Measurements in the form in which the model is compared with them. Each kind has its own file."""
 
     @property
     def dataset(self) -> str:
@@ -103,40 +103,40 @@ class Observation(Protocol):
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """Of its records."""
+        """Sources of its records."""
         ...
 
     @property
     def runs(self) -> tuple[Run, ...]:
-        """What has to be simulated."""
+        """The runs to simulate."""
         ...
 
     def with_runs(self, runs: Sequence[Run]) -> Observation:
-        """The same measurements beside other runs, one for each of `runs`."""
+        """The same measurements with other runs, one for each of the present ones."""
         ...
 
     def head(self, share: float) -> Observation:
-        """The first share of a log that begins anywhere; anything else as it is."""
+        """The first share of a log with unknown initial states; any other observation unchanged."""
         ...
 
     @property
     def channels(self) -> tuple[str, ...]:
-        """Signals with a level of their own; none where the residuals have a known one, 1."""
+        """Signals whose level is estimated; none if the residuals are already in standard deviations."""
         ...
 
     @property
     def channel_of_row(self) -> NDArray[np.intp]:
-        """(n,) place among `channels` of each row of `residual`; zeros where there are none."""
+        """(n,) index in `channels` of each row of `residual`; zeros if there are no channels."""
         ...
 
     @property
     def samples(self) -> Array:
-        """(n_c,) independent numbers per channel, those too that `residual` leaves out."""
+        """(n_c,) number of samples per channel, including degrees of freedom that `residual` leaves out."""
         ...
 
     @property
     def rest(self) -> Array:
-        """(n_c,) sum of squares of those that it leaves out, which no model changes, in the unit squared."""
+        """(n_c,) sum of squares that `residual` leaves out since no model changes it, in the channel's unit squared."""
         ...
 
     @property
@@ -145,26 +145,27 @@ class Observation(Protocol):
         ...
 
     def residual(self, answers: Sequence[Simulated], measure: Measure = Measure.SIGNAL) -> Array:
-        """Measured minus simulated, and its slopes by the search's numbers and the free initial states: (n, m)."""
+        """Measured minus simulated, its derivatives by the search coordinates, and by the initial states.
+
+        Shape (n, 1 + n_x + n_s)."""
         ...
 
     def nuisance_columns(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:
-        """What one unit of each nuisance adds to the measured rows, (n, k)."""
+        """(n, k) what one unit of each sensor error adds to the measured rows."""
         ...
 
     def sensed(self, answers: Sequence[Simulated], errors: SensorErrors) -> tuple[Simulated, ...]:
-        """The answers as sensors with these errors show them."""
+        """The results as sensors with these errors show them."""
         ...
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
-        """(n,) number of the piece that each row belongs to: stretches that count as independent of each other.
+        """(n,) number of the piece that each row belongs to; pieces count as independent of each other.
 
         Args:
-            residual: (n,) at the point, whose memory says how long a stretch has to be.
-            shortest: length of a piece in memories.
-        """
+            residual: (n,), whose autocorrelation sets the length of the pieces.
+            shortest: length of a piece in units of lambda (`effective_size.inflation`)."""
         ...
 
     def beside(self, answers: Sequence[Simulated]) -> tuple[tuple[RecordFit, ...], tuple[ResponseFit, ...]]:
-        """The measurements beside the model."""
+        """The measurements with the model's signals, logs and responses."""
         ...

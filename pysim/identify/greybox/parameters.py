@@ -1,4 +1,4 @@
-"""What a fit may change: free, tied and fixed parameters, their bounds, and the scale the search sees them on."""
+"""Parameters of a fit: free, tied and fixed ones, their bounds, and the search coordinates."""
 
 from __future__ import annotations
 
@@ -17,15 +17,15 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Parameter:
-    """One free number; what is None comes from the model.
+    """One free parameter; start and bounds that are None come from the model.
 
     Args:
-        name: of the model's variable, a parameter or the start value of a state.
-        start: where the search begins, in the variable's unit.
+        name: variable of the model, a parameter or the start value of a state.
+        start: start value of the search, in the variable's unit.
         lower, upper: bounds, in its unit.
-        log: search on a logarithmic scale; where None, wherever the lower bound is above zero.
-        record: source of the one log this value belongs to, as an unknown initial state; all logs where None.
-        prior: mean and standard deviation of what is known of it beforehand, in its unit; None where nothing is.
+        log: search on a logarithmic scale; None does so if the lower bound is above zero.
+        record: source of the one log the value belongs to, as an unknown initial state; None for all logs.
+        prior: mean and standard deviation of a Gaussian prior, in its unit; None for no prior.
     """
 
     name: str
@@ -38,7 +38,7 @@ class Parameter:
 
     @property
     def key(self) -> str:
-        """What the fit calls it."""
+        """Its name in the fit: `name`, or `name@record` for a single log."""
         return self.name if self.record is None else f"{self.name}@{self.record}"
 
 
@@ -53,17 +53,17 @@ class Tie:
 
 @dataclass(frozen=True)
 class ParameterSpace:
-    """Checked free parameters and the map from the search's numbers x to the model's.
+    """Checked free parameters p, and the map between them and the search coordinates x.
 
-    On a logarithmic scale x = ln(p); on a linear one x = p / scale, scale being the larger of nominal value and size at
-    the start, else the width of the bounds.
+    On a logarithmic scale x = ln(p); on a linear one x = p / scale. The scale is the larger of nominal value and start
+    value; if both are zero, the width of the bounds.
 
     Args:
         keys, variables, records, units: (n) name in the fit, variable, log it belongs to, and unit.
         start, lower, upper, scale: (n) in the variables' units.
         log: (n) whether the scale is logarithmic.
-        priors: key -> mean and standard deviation of what is known beforehand.
-        ties, fixed: as given.
+        ties, fixed: tied parameters; fixed variable -> value.
+        priors: key -> mean and standard deviation of its Gaussian prior.
     """
 
     keys: tuple[str, ...]
@@ -85,13 +85,13 @@ class ParameterSpace:
 
     @classmethod
     def held(cls, values: Mapping[str, float]) -> ParameterSpace:
-        """Nothing free, these fixed."""
+        """A space without free parameters: variable -> fixed value."""
         nothing = np.zeros(0)
         return cls((), (), (), (), nothing, nothing, nothing, nothing, nothing.astype(bool), fixed=values)
 
     @property
     def size(self) -> int:
-        """How many numbers are free."""
+        """Number of free parameters."""
         return len(self.keys)
 
     def to_search(self, p: Array) -> Array:
@@ -100,7 +100,7 @@ class ParameterSpace:
             return np.where(self.log, np.log(np.where(self.log, p, 1.0)), p / self.scale)
 
     def to_model(self, x: Array) -> Array:
-        """x (n,) -> model values (n,), exactly the bounds where x is at its own."""
+        """x (n,) -> model values (n,); exactly the bound if x is at the bound."""
         low, high = self.bounds()
         p = np.where(self.log, np.exp(np.where(self.log, x, 0.0)), x * self.scale)
         return np.where(x <= low, self.lower, np.where(x >= high, self.upper, p))
@@ -114,12 +114,12 @@ class ParameterSpace:
         return self.to_search(self.lower), self.to_search(self.upper)
 
     def values(self, x: Array) -> dict[str, float]:
-        """Every free, tied and fixed parameter by its name in the fit."""
+        """Name in the fit -> value of every free, tied and fixed parameter."""
         p = dict(zip(self.keys, self.to_model(x).tolist(), strict=True))
         return {**self.fixed, **p, **{tie.name: tie.factor * p[tie.of] for tie in self.ties}}
 
     def prior_rows(self, x: Array) -> tuple[Array, Array]:
-        """How far x (n,) is from what is known beforehand, in standard deviations (k,), and the slopes (k, n)."""
+        """Distance of x (n,) from the means of the k priors, in standard deviations (k,), and its Jacobian (k, n)."""
         places = [place for place, key in enumerate(self.keys) if key in self.priors]
         mean, sd = np.array([self.priors[self.keys[place]] for place in places]).reshape(-1, 2).T
         rows = np.zeros((len(places), self.size))
@@ -127,14 +127,14 @@ class ParameterSpace:
         return (self.to_model(x)[places] - mean) / sd, rows
 
     def overrides(self, x: Array, record: str) -> dict[str, float]:
-        """Variable -> value for the run of one log, x (n,) of the whole space."""
+        """Variable -> value for the run of one log; x (n,) holds all free parameters."""
         rows = list(zip(self.variables, self.records, self.to_model(x).tolist(), strict=True))
         own = {variable: value for variable, of, value in rows if of is None}
         tied = {tie.name: tie.factor * own[tie.of] for tie in self.ties}
         return {**self.fixed, **own, **tied, **{variable: value for variable, of, value in rows if of == record}}
 
     def chain(self, x: Array, record: str) -> tuple[tuple[str, ...], Array]:
-        """Variables that change in the run of one log, and their slopes by x: (n_v) names, (n_v, n)."""
+        """Free and tied variables of the run of one log: names (n_v), and their derivatives by x (n_v, n)."""
         slope, rows = self.slope(x), {}
         for j, (variable, of) in enumerate(zip(self.variables, self.records, strict=True)):
             if of in (None, record):
@@ -152,11 +152,11 @@ def parameter_space(
     fixed: Mapping[str, float] | None = None,
     ties: Sequence[Tie] = (),
 ) -> ParameterSpace:
-    """Take bounds and start values from the model where they are not given, and check everything once.
+    """Check the parameters; bounds and start values that are not given come from the model.
 
     Raises:
         BadInput: a name twice, a start outside its bounds, a logarithmic scale down to zero, a tie to
-            what is not free, or a variable that cannot be set.
+            a parameter that is not free, or a variable that cannot be set.
     """
     keys = [parameter.key for parameter in free]
     everything = [*keys, *(tie.name for tie in ties), *(fixed or {})]
