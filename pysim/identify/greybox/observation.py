@@ -57,7 +57,7 @@ class Run:
         return bool(np.isinf(self.initial).any())
 
     def over_time(self, overrides: Mapping[str, float], offset: Array | None) -> Experiment:
-        """The run over time with parameters set and initial states at an offset (n_s,) from rest; None means at rest."""
+        """The run over time with parameters set; its initial states are at an offset (n_s,) from rest, or at rest."""
         experiment = self.experiment.override(**overrides)
         if offset is None or not self.free.size:
             return experiment
@@ -145,9 +145,7 @@ class Observation(Protocol):
         ...
 
     def residual(self, answers: Sequence[Simulated], measure: Measure = Measure.SIGNAL) -> Array:
-        """Measured minus simulated, its derivatives by the search coordinates, and by the initial states.
-
-        Shape (n, 1 + n_x + n_s)."""
+        """(n, 1 + n_x + n_s) residual, measured minus simulated; its derivatives by search coordinates and states."""
         ...
 
     def nuisance_columns(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:

@@ -1,4 +1,4 @@
-"""A model, its measurements and what may change: checked once, then never changed."""
+"""Problem of a fit: a model, its measurements and its free parameters, checked once and then never changed."""
 
 from __future__ import annotations
 
@@ -31,16 +31,16 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Problem:
-    """What a fit solves.
+    """Everything that defines a fit.
 
     Args:
         model: left unchanged.
         space: free, tied and fixed parameters.
-        observations: measurements, those too that are not fitted.
-        floors: least level of each channel.
-        notes: what was assumed on the way.
-        settings: what residuals are judged by.
-        specified: whether the data say how large the noise of everything is.
+        observations: measurements, including those that are not fitted.
+        floors: noise floor of each channel, below which the level of its residual never falls.
+        notes: assumptions about the data.
+        settings: how levels, blocks and priors are set.
+        specified: whether the data specify the noise of every signal and table.
     """
 
     model: Model
@@ -63,10 +63,10 @@ class Problem:
     def residuals(
         self, objective: Objective = NOISE, simulation: Simulation | None = None, *, use: str = "fit"
     ) -> WeightedResiduals:
-        """What an objective counts of the records of one use.
+        """Residuals of the records of one use ("fit" or "validate"), in the objective's measure.
 
         Raises:
-            BadInput: nothing counts, of the records to fit.
+            BadInput: no record with use "fit" belongs to the objective.
         """
         chosen = objective.chosen(self.observations) if use == "fit" else [o for o in self.observations if o.use == use]
         return WeightedResiduals(
@@ -80,9 +80,9 @@ class Problem:
 
 
 def beside(problem: Problem, model: Model, free: Sequence[Parameter | str]) -> Problem:
-    """The same measurements beside a model that has more in it; what was worked out of them is not worked out again.
+    """The problem with an extended model and other free parameters; the observations are reused, not made again.
 
-    States that are new are as free at a log's start as their nominal size lets them be, where others are free.
+    In logs with free initial states, new states are free as well, with their nominal size as prior standard deviation.
 
     Args:
         model: has all variables of the problem's model.
@@ -111,18 +111,18 @@ def problem(
     ties: Sequence[Tie] = (),
     treatment: Treatment | None = None,
 ) -> Problem:
-    """Bring model, data sets and parameters together.
+    """Check model, data sets and parameters, and make the problem.
 
     Args:
-        model: has a variable for each compared signal, in the same unit. An input named like a command with `_t`
-            behind it is taken as its rate and gets its exact derivative.
+        model: has a variable for each compared signal, in the same unit. An input with the name of a command and the
+            suffix `_t` is taken as the command's rate, and gets the exact derivative.
         data: data sets; a plain Dataset means all its outputs and no overrides.
-        free: parameters, or names where everything comes from the model.
+        free: parameters; a plain name takes start and bounds from the model.
         fixed: parameter -> value, in its unit.
-        ties: parameters that follow free ones.
+        ties: parameters that are proportional to free ones.
         treatment: how logs are compared.
     Raises:
-        BadInput: what does not fit together, before anything runs.
+        BadInput: model, data and parameters do not match.
     """
     treatment = treatment or Treatment()
     parameters = [Parameter(p) if isinstance(p, str) else p for p in free]
@@ -154,7 +154,7 @@ def problem(
 def _context(
     model: Model, data: Measurements, treatment: Treatment, started: Collection[str | None]
 ) -> tuple[Context, list[Note]]:
-    """A data set beside the model, and notes on the noise that was estimated."""
+    """The context of a data set, and notes on noise that was estimated."""
     dataset = data.dataset
     measured = tuple(signal.name for signal in dataset.signals if signal.role == "output")
     for name in data.outputs or ():
@@ -187,10 +187,10 @@ def _floors(context: Context, given: Mapping[str, float]) -> dict[Channel, Noise
 
 
 def _observations(context: Context) -> tuple[list[Observation], list[Note], bool]:
-    """Of a data set, the stepped sines of a test together, notes on what was assumed, and whether tables state errors.
+    """Observations of a data set (stepped sines of one test are one), notes, and whether tables have a covariance.
 
     Raises:
-        BadInput: what cannot be compared, naming record or signal.
+        BadInput: a record cannot be compared; the message names record or signal.
     """
     tables: list[ResponseTable] = []
     logs: list[tuple[int, MeasuredRecord]] = []
@@ -223,7 +223,7 @@ def _observations(context: Context) -> tuple[list[Observation], list[Note], bool
 
 
 def _started(model: Model, space: ParameterSpace) -> set[str | None]:
-    """Records that a state is free to begin at another value in; None where it is in all."""
+    """Records with an initial state among the free parameters; None is among them if it is free in all records."""
     states = model.abilities.states
     return {record for name, record in zip(space.variables, space.records, strict=True) if name in states}
 

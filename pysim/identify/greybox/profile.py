@@ -1,4 +1,4 @@
-"""Profile likelihood: the interval of one parameter without any straight line in it."""
+"""Profile likelihood: the interval of one parameter without linearisation."""
 
 from __future__ import annotations
 
@@ -25,12 +25,12 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Profile:
-    """How the least cost depends on one parameter.
+    """The profile of one parameter.
 
     Args:
-        name: of the parameter.
-        points: (n, 2) its value, and the least objective over all other parameters, nats, by increasing value.
-        interval: where that rises by half the limit of the chi-squared distribution; a bound where it never does.
+        name: name of the parameter.
+        points: (n, 2) its value, increasing, and the minimum of the objective over all other parameters, nats.
+        interval: where the profile has risen by half the chi-squared quantile; a bound if the profile never does.
     """
 
     name: str
@@ -47,14 +47,14 @@ def profile(
     level: float = FitSettings().level,
     steps: int = 12,
 ) -> Profile:
-    """Walk away from the optimum to both sides, with all other parameters fitted anew at every step.
+    """Step away from the optimum on both sides, and refit all other parameters at every step.
 
     Args:
-        problem: as it was fitted, by least squares.
+        problem: the problem that was fitted by least squares.
         fit: its optimum.
-        name: of a free parameter; one of a single log, "x@log.txt", is held in that log only.
-        level: of the interval.
-        steps: at most, to either side.
+        name: a free parameter; one of a single log, "x@log.txt", is held in that log only.
+        level: confidence level of the interval.
+        steps: largest number of outward steps on either side.
     Raises:
         BadInput: not a free parameter, or the only one.
     """
@@ -82,7 +82,7 @@ _ARRAYS = ("lower", "upper", "scale", "log")
 
 @dataclass
 class _Walker:
-    """Fits all other parameters with one held, starting from where the last such fit ended."""
+    """Refits all other parameters with one held; each refit starts where the last one ended."""
 
     problem: Problem
     fit: Fit
@@ -95,7 +95,7 @@ class _Walker:
         self.others = np.array([self.fit.values[key] for i, key in enumerate(space.keys) if i != self.place])
 
     def cost(self, value: float) -> float:
-        """The least objective with the parameter held at value."""
+        """The minimum of the objective with the parameter held at a value, nats."""
         rest = self._rest()
         everywhere = self.problem.space.records[self.place] is None
         evaluate = self._fixed(rest, value) if everywhere else self._held(value)
@@ -114,7 +114,7 @@ class _Walker:
         return replace(space, **kept, start=self.others, ties=ties)
 
     def _fixed(self, rest: ParameterSpace, value: float) -> Evaluate:
-        """The objective with the parameter, and what is tied to it, fixed in all logs."""
+        """The objective with the parameter, and those tied to it, fixed in all logs."""
         space = self.problem.space
         tied = {tie.name: tie.factor * value for tie in space.ties if tie.of == space.keys[self.place]}
         fixed = {**space.fixed, space.variables[self.place]: value, **tied}
@@ -125,9 +125,9 @@ class _Walker:
         return lambda x, carried: residuals.evaluate(model, space, x, carried)
 
     def _held(self, value: float) -> Evaluate:
-        """The objective with the parameter, of one log, held in that log.
+        """The objective with a parameter of a single log held in that log.
 
-        What is fixed is so in all logs, so it stays in the space and only its slopes are left out.
+        A fixed parameter would be fixed in all logs, so it stays in the space and only its derivatives are left out.
         """
         space, place = self.problem.space, self.place
         whole = self._evaluate(space)
@@ -142,7 +142,7 @@ class _Walker:
 
 
 def _end(walker: _Walker, fit: Fit, name: str, side: int, limit: float, steps: int, rows: dict[float, float]) -> float:
-    """Where the cost has risen by the limit: by growing steps outwards, then by interpolation of its root."""
+    """Value where the cost has risen by the limit, or the bound: growing steps outwards, then interpolation."""
     estimate = fit[name]
     bound = estimate.lower if side < 0 else estimate.upper
     start = walker.others.copy()
@@ -168,7 +168,7 @@ def _end(walker: _Walker, fit: Fit, name: str, side: int, limit: float, steps: i
 def _refined(
     walker: _Walker, inside: tuple[float, float], outside: tuple[float, float], limit: float, rows: dict[float, float]
 ) -> float:
-    """Narrow down between (value, rise) pairs: the root of the rise is about a line, where it is not, halve."""
+    """Value where the rise meets the limit, between two pairs (value, rise): interpolation in turn with bisection."""
     cost = walker.fit.cost
     for attempt in range(_REFINEMENTS):
         if abs(outside[1] - limit) < 0.1 * limit:
@@ -181,7 +181,7 @@ def _refined(
 
 
 def _between(inside: tuple[float, float], outside: tuple[float, float], limit: float) -> float:
-    """Where a straight line through the roots of both rises meets that of the limit."""
+    """Value where a straight line through the square roots of both rises meets the square root of the limit."""
     if not math.isfinite(outside[1]):
         return 0.5 * (inside[0] + outside[0])
     a, b = math.sqrt(inside[1]), math.sqrt(outside[1])

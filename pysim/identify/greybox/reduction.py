@@ -1,7 +1,7 @@
-"""The rows of a long log as triangles, made while the run goes on: memory does not grow with the rows.
+"""Residual and Jacobian of a long log as QR triangles, made during the run, so that memory does not grow with the log.
 
-Sums of squares and products of residuals and slopes are all that a search and its intervals ask for, and the triangle
-of a QR factorisation has the same ones as its rows. There is one for each channel, with its own level, and block.
+A search and its intervals need only sums of squares and products of residual and Jacobian. The triangle of a QR
+factorisation has the same ones as its rows. There is one triangle for each channel and block.
 """
 
 from __future__ import annotations
@@ -16,12 +16,12 @@ Rows = NDArray[np.intp]
 
 
 class Reduction:
-    """Rows of one log at one point.
+    """Reduced rows of one log at one point.
 
     Args:
-        measured: (n_t, n_y) what each recorded row is compared with.
-        pieces: stretches of the log that count as independent of each other, as at the point before; 0 where not known.
-        blocks: to which these are dealt out in turn.
+        measured: (n_t, n_y) measured values of each row.
+        pieces: number of stretches of the log that count as independent, from the point before; 0 if not known.
+        blocks: number of blocks, to which the pieces are assigned in turn.
     """
 
     def __init__(self, measured: Array, pieces: int, blocks: int) -> None:
@@ -31,11 +31,11 @@ class Reduction:
         self._chain, self._free = np.zeros((0, 0)), np.zeros(0, dtype=np.intp)
 
     def begin(self, chain: Array, free: NDArray[np.intp]) -> None:
-        """Expect slopes by variables, of which the search's numbers are (n_v, n_x), and of the states the free ones."""
+        """Set the derivatives of variables by search coordinates (n_v, n_x), and the indices of free initial states."""
         self._chain, self._free = chain, free
 
     def take(self, first: int, values: Array, slopes: Array) -> None:
-        """Rows from number `first` on: values (n, n_y), slopes (n, n_y, n_s + n_v) by initial states and variables."""
+        """Add rows from number `first` on: values (n, n_y), derivatives by states and variables (n, n_y, n_s + n_v)."""
         if first == 0:
             self._residual, self._triangles = np.zeros_like(self._measured), {}
         own, split = slice(first, first + len(values)), slopes.shape[2] - len(self._chain)
@@ -53,17 +53,17 @@ class Reduction:
 
     @property
     def arrays(self) -> tuple[Array, ...]:
-        """All numbers that it keeps."""
+        """All arrays that are kept."""
         return (self._residual, *self._triangles.values())
 
     @property
     def table(self) -> Array:
-        """(n, 1 + n_x + n_s) as `Observation.residual`, with the same sums of squares and products."""
+        """(n, 1 + n_x + n_s) like `Observation.residual`, with fewer rows but the same sums of squares and products."""
         return np.concatenate([*self._triangles.values()])
 
     @property
     def channel(self) -> Rows:
-        """(n,) place among the log's channels of each row."""
+        """(n,) index of each row's channel."""
         return np.concatenate([np.full(len(rows), key[0]) for key, rows in self._triangles.items()])
 
     @property
@@ -73,9 +73,9 @@ class Reduction:
 
     @property
     def count(self) -> int:
-        """Rows that these stand for."""
+        """Number of rows that the triangles stand for, n_t n_y."""
         return self._measured.size
 
     def pieces(self, shortest: float) -> int:
-        """How many pieces the residual asks for, each as long as so many of its memories."""
+        """Number of independent pieces of the residual, see `independent_pieces`."""
         return independent_pieces(self._residual, shortest)
