@@ -1,11 +1,10 @@
-"""A model and a point become residuals over their levels, with their Jacobian: what every method here counts in.
+"""Residuals over their levels, with their Jacobian, of a model at one point: the input of searches and intervals.
 
-The objective is that of independent normal errors with one level per channel, which the data themselves give:
-Q = sum n/2 log(v) with v = RSS/n, a floor s below it, n/2 (log(s^2) + v/s^2 - 1), and priors.
-
+The objective is the negative log-likelihood of independent normal errors. The level (standard deviation) of each
+channel is estimated from its residual: Q = sum n/2 log(v) with v = RSS/n, plus priors. If v is below the square of the
+channel's noise floor s, the term is n/2 (log(s^2) + v/s^2 - 1). Nuisances are sensor errors.
 Source: Box and Draper 1965, Biometrika 52:355; for errors that are not independent Liang and Zeger 1986, Biometrika
-73:13; for models that are wrong White 1982, Econometrica 50:1.
-"""
+73:13; for models that are wrong White 1982, Econometrica 50:1."""
 
 from __future__ import annotations
 
@@ -33,17 +32,17 @@ Array = NDArray[np.float64]
 Rows = NDArray[np.intp]  # a number for each row
 
 Channel = tuple[str, str]  # data set and signal
-BEFOREHAND = -1  # block of rows that no data gave
+BEFOREHAND = -1  # block of the rows of priors
 
 
 @dataclass(frozen=True)
 class Carried:
-    """What a point has beside the parameters: numbers that are found along with them.
+    """Unknowns of a point other than the parameters, which are estimated together with them.
 
     Args:
-        states: per run, an orbit's state (n_states,), the offset from rest of a log's free states (n_s,), or None.
-        nuisances: (k,) sizes of the sensor errors that are free.
-        pieces: per run, how many independent stretches the residual of a long log has; 0 of any other.
+        states: per run, an orbit's state (n_states,), the offset of a log's initial states from rest (n_s,), or None.
+        nuisances: (k,) sizes of the free sensor errors.
+        pieces: per run, number of independent stretches of the residual of a long log; 0 for any other run.
     """
 
     states: tuple[Array | None, ...] = ()
@@ -53,25 +52,26 @@ class Carried:
 
 @dataclass(frozen=True)
 class Point:
-    """The objective at one point, with all that a search wants to know of it.
+    """The objective at one point, with everything that a search needs.
 
     Args:
-        x: (n,) in the search's numbers.
-        cost: of the objective, nats where it sums up squares; infinite where the model could not be simulated.
-        residual: (n_r,) over the level of its channel; priors are rows too. Of a long log triangles stand for the rows
-            of each channel and block (`reduction`), with the same sums of squares and products.
-        jacobian: (n_r, n) of the residual by x, initial states and nuisances eliminated.
+        x: (n,) search coordinates.
+        cost: the objective, in nats if it sums up squares; infinite if the model could not be simulated.
+        residual: (n_r,) over the level of its channel; priors are rows too. For a long log, the rows of each channel
+            and block are replaced by a QR triangle (`reduction`), with the same sums of squares and products.
+        jacobian: (n_r, n) of the residual by x, after elimination of initial states and nuisances.
         levels: (n_c,) of the channels, in their units.
         squares: (n_c,) sums of squares of the residuals, in the units squared.
-        known: sum of squares of the residuals whose level is known.
-        more: rows that those of triangles stand for, beyond their own number.
-        blocks: (n_r,) number of the block that each row belongs to; blocks count as independent of each other. What
-            was known of parameters beforehand has the block BEFOREHAND.
-        series: (n_r,) number of the log and channel that each row belongs to, in the order of time.
-        carried: what was found along with x.
-        steps: what a full step adds to each array of `carried` (n_s,), and how that depends on x (n_s, n).
-        gain: nats that such a step promises where x stays.
-        failure: why the point is a bad one; None where it is not.
+        known: sum of squares of the residuals with known standard deviations.
+        more: number of rows that triangles replace, less the number of rows of the triangles.
+        blocks: (n_r,) number of the block that each row belongs to; blocks count as independent of each other. The
+            priors of parameters have the block BEFOREHAND.
+        series: (n_r,) number of the log and channel that each row belongs to, in the order of time; -1 for priors.
+        carried: initial states, orbits and nuisances at this point.
+        steps: per array of `carried`, its Gauss-Newton step at constant x (n_s,), and the step's derivative by x
+            (n_s, n).
+        gain: nats by which these steps would lower the objective at constant x, if the model were linear.
+        failure: why the model could not be simulated; None if it could.
     """
 
     x: Array
@@ -101,29 +101,29 @@ class Point:
 
     @property
     def count(self) -> float:
-        """Rows of all observations, and priors."""
+        """Number of rows of all observations and priors, before reduction."""
         return self.residual.size + self.more
 
     @cached_property
     def triangle(self) -> Array:
-        """R (n + 1, n + 1) of the QR factors of the Jacobian with the residual beside it."""
+        """R (n + 1, n + 1) of the QR factorisation of [Jacobian, residual]."""
         slices = [slice(first, first + ROWS) for first in range(0, max(self.residual.size, 1), ROWS)]
         return triangle(np.column_stack([self.jacobian[own], self.residual[own]]) for own in slices)
 
     def with_columns(self, columns: Sequence[int]) -> Point:
-        """The same where only some of the parameters are free, in this order."""
+        """The point with only these parameters free, in this order."""
         steps = tuple(step if step is None else (step[0], step[1][:, columns]) for step in self.steps)
         return replace(self, x=self.x[columns], jacobian=self.jacobian[:, columns], steps=steps)
 
     def carried_to(self, x: Array, share: float = 1.0) -> Carried:
-        """What goes along with another point x (n,), to first order; `share` of the step of what is free here."""
+        """`carried` at another point x (n,), to first order, with `share` of the step at constant x."""
         if not self.steps:
             return Carried()
         moved = []
         for value, step in zip((*self.carried.states, self.carried.nuisances), self.steps, strict=True):
             if value is not None and step is not None:
                 value = value + share * step[0]
-                if step[1].size:  # none where the point has no Jacobian
+                if step[1].size:  # empty if the point has no Jacobian
                     value = value + step[1] @ (x - self.x)
             moved.append(value)
         nuisances = moved[-1]
@@ -132,7 +132,7 @@ class Point:
 
 
 def with_rows(point: Point, residual: Array, slopes: Array, block: int) -> Point:
-    """The point with priors (k,) as more rows of one block, and their slopes (k, n)."""
+    """The point with additional rows for priors: residual (k,) and Jacobian (k, n), all in one block."""
     return replace(
         point,
         cost=point.cost + 0.5 * float(residual @ residual),
@@ -150,16 +150,16 @@ def failed_point(x: Array, failure: Failure) -> Point:
 
 @dataclass(frozen=True)
 class WeightedResiduals:
-    """Observations and what their residuals are counted in.
+    """Observations, and how their residuals are weighted.
 
     Args:
-        observations: to count.
-        floors: least level of each channel.
+        observations: observations that are compared with the model.
+        floors: noise floor of each channel.
         simulation: settings of the runs.
-        measure: in what residuals are counted. As the thesis counts them, levels are 1 and sizes are summed up.
-        absolute: whether sizes are summed up instead of squares; initial states are held at rest then.
-        nuisances: sensor errors that are free beside the parameters.
-        known: sensor errors that are there for certain, and how large they are.
+        measure: unit of the residuals. All levels are 1 if it is that of the thesis.
+        absolute: whether absolute values are summed up instead of squares; initial states are then held at rest.
+        nuisances: sensor errors that are estimated together with the parameters.
+        known: sensor errors of known size.
         settings: of levels, priors and blocks.
     """
 
@@ -174,27 +174,27 @@ class WeightedResiduals:
 
     @property
     def runs(self) -> tuple[Run, ...]:
-        """Of all observations, in order."""
+        """The runs of all observations, in order."""
         return tuple(run for one in self.observations for run in one.runs)
 
     @property
     def channels(self) -> tuple[Channel, ...]:
-        """Those with a level of their own, in the order in which they come."""
+        """Channels whose level is estimated, in the order of the observations."""
         return tuple(dict.fromkeys((o.dataset, name) for o in self.observations for name in o.channels))
 
     @property
     def series(self) -> tuple[tuple[Observation, str | None], ...]:
-        """What each number of `Point.series` stands for: an observation and its signal, or None for known levels."""
+        """Observation and signal of each number in `Point.series`; the signal is None if the level is known."""
         return tuple((one, name) for one in self.observations for name in (one.channels or (None,)))
 
     @property
     def known_rows(self) -> int:
-        """Rows whose level is known."""
+        """Number of rows whose level is known."""
         return sum(one.channel_of_row.size for one in self.observations if not one.channels)
 
     @property
     def samples(self) -> Array:
-        """(n_c,) independent numbers per channel."""
+        """(n_c,) number of samples per channel."""
         return self._summed([one.samples for one in self.observations])
 
     def of(self, use: str) -> WeightedResiduals:
@@ -211,19 +211,19 @@ class WeightedResiduals:
         jacobian: bool = True,
         states: bool = True,
     ) -> Point:
-        """The objective at x (n,); never raises for what a model does there.
+        """The objective at x (n,). If the model cannot be simulated, nothing is raised: the point has a `failure`.
 
         Args:
-            carried: initial states, guesses of orbits and nuisances to be at; rest and none where None.
-            jacobian: whether that of the parameters is wanted; it has no columns where not.
-            states: whether initial states are free; else they are held where they are carried to.
+            carried: initial states, guesses of orbits, and nuisances; None: at rest, without guesses and sensor errors.
+            jacobian: whether the Jacobian by x is computed; if not, it has no columns.
+            states: whether initial states are free; if not, they are held at the values in `carried`.
         """
         carried = carried or Carried()
         answer = self.simulate(model, space, x, carried, jacobian=jacobian, states=states)
         return self.with_priors(self.weigh(x, answer, carried, x.size if jacobian else 0), space)
 
     def with_priors(self, point: Point, space: ParameterSpace) -> Point:
-        """The point with what is known of parameters beforehand; where sizes are summed up that does not count."""
+        """The point with the parameters' priors as rows; unchanged for absolute values and the thesis' measure."""
         if not space.priors or self.absolute or self.measure is Measure.THESIS or not point.good:
             return point
         away, slopes = space.prior_rows(point.x)
@@ -239,7 +239,7 @@ class WeightedResiduals:
         jacobian: bool = True,
         states: bool = True,
     ) -> Answer:
-        """All runs at x (n,), as `evaluate` weighs them."""
+        """Simulate all runs at x (n,); see `evaluate`."""
         runs = self.runs
         return simulate_runs(
             model,
@@ -254,7 +254,7 @@ class WeightedResiduals:
         )
 
     def _reductions(self, carried: Carried) -> list[Reduction | None]:
-        """For each run that is too long to keep its rows."""
+        """A reduction for each run that is too long to keep its rows, None for others; empty if none may be reduced."""
         if self.absolute or self.measure is Measure.THESIS or self.nuisances or self.known:
             return []
         runs, blocks = self.runs, self.settings.blocks
@@ -265,7 +265,7 @@ class WeightedResiduals:
         ]
 
     def weigh(self, x: Array, answer: Answer, carried: Carried, n: int) -> Point:
-        """The point that simulated runs make, with `n` columns of the Jacobian."""
+        """The point from simulated runs, with n columns of the Jacobian; a failed point if a residual is not finite."""
         if answer.failure is not None:
             return failed_point(x, answer.failure)
         sizes = carried.nuisances if carried.nuisances.size else np.zeros(len(self.nuisances))
@@ -288,7 +288,7 @@ class WeightedResiduals:
         return found
 
     def _summed(self, parts: Sequence[Array]) -> Array:
-        """Sums per channel of parts (n_c,) of each observation."""
+        """Sum over observations, per channel, of values (n_c,) of each observation."""
         place = {channel: i for i, channel in enumerate(self.channels)}
         total = np.zeros(len(place))
         for one, part in zip(self.observations, parts, strict=True):
@@ -315,10 +315,10 @@ class WeightedResiduals:
         by_error: Sequence[Array],
         n: int,
     ) -> Point:
-        """One point of all observations.
+        """The point of all observations, with estimated levels.
 
         Args:
-            by_error: slopes (n, k) of each observation's residual by the sizes of the nuisances; none without these.
+            by_error: derivatives (n, k) of each observation's residual by the sizes of the nuisances; empty if none.
         """
         squares = self._summed([_squares(one, table) for one, table in zip(self.observations, tables, strict=True)])
         levels, cost = self._levels(squares)
@@ -357,7 +357,7 @@ class WeightedResiduals:
         n: int,
         tables: Sequence[_Rows],
     ) -> Point:
-        """One point of all observations, the nuisances eliminated too; its cost is that of their priors."""
+        """The point of all observations, with nuisances eliminated; its cost is that of the nuisances' priors alone."""
         residual = _stacked([part.residual for part in parts])
         jacobian = _stacked([part.rows[:, 1 : 1 + n] for part in parts])
         gain, cost = sum(part.gain for part in parts), 0.0
@@ -383,7 +383,7 @@ class WeightedResiduals:
         )  # fmt: skip
 
     def _levels(self, squares: Array) -> tuple[Array, float]:
-        """Of every channel, and what they cost, nats."""
+        """Level of every channel from sums of squares (n_c,), and the objective of all channels in nats."""
         floor = np.array([self.floors[channel].sd for channel in self.channels])
         samples, least = self.samples, floor**2
         variance = squares / np.maximum(samples, 1.0)
@@ -394,11 +394,11 @@ class WeightedResiduals:
     def _blocks(
         self, parts: Sequence[_Eliminated], tables: Sequence[_Rows], ahead: int = 0
     ) -> tuple[NDArray[np.intp], NDArray[np.intp], tuple[int, ...]]:
-        """Block and series of each row, and the pieces of long logs. Pieces are dealt out in turn, so that each block
-        has some of every log.
+        """Block and series of each row, and the number of pieces of long logs. Pieces are assigned to blocks in turn,
+        so that each block has some of every log.
 
         Args:
-            parts: of each observation; `ahead` priors come before all.
+            parts: one per observation; `ahead` rows of priors come before all.
         """
         blocks, series = [np.zeros(ahead, dtype=np.intp)], [np.full(ahead, -1, dtype=np.intp)]
         dealt, number, settings = 0, 0, self.settings
@@ -418,17 +418,17 @@ class WeightedResiduals:
         return np.concatenate(blocks), np.concatenate(series), tuple(counts)
 
     def misfit(self, point: Point, noise: Mapping[Channel, float]) -> float:
-        """Root mean square residual over the noise, per degree of freedom: 1 where nothing but noise is left."""
+        """Root mean square residual in standard deviations of the noise, per degree of freedom: 1 means only noise."""
         size = np.array([noise[channel] for channel in self.channels])
         total = float(np.sum(point.squares / size**2)) + point.known
         return math.sqrt(total / max(float(self.samples.sum()) + self.known_rows - point.x.size, 1.0))
 
 
-_LARGEST = 1e200  # of a sum of squares: a hundred decades are left for levels and steps
+_LARGEST = 1e200  # largest sum of squares; a hundred decades remain for division by levels
 
 
 class _Rows(NamedTuple):
-    """Residual and slopes of one observation (n, m), the channel of each row (n,), and how a long log was reduced."""
+    """Residual and derivatives of one observation (n, m), channel of each row (n,), and the reduction of a long log."""
 
     rows: Array
     channel: Rows
@@ -436,12 +436,12 @@ class _Rows(NamedTuple):
 
     @property
     def more(self) -> float:
-        """Rows that these stand for, beyond their own number."""
+        """Number of rows that were reduced, less the number of rows that remain."""
         return 0.0 if self.reduction is None else float(self.reduction.count - len(self.rows))
 
 
 def rows_of(one: Observation, own: Sequence[Simulated], measure: Measure = Measure.SIGNAL) -> _Rows:
-    """Residual and slopes of an observation by x and by its free initial states."""
+    """Residual of an observation and its derivatives, as `Observation.residual`, or the triangles of a long log."""
     reduction = own[0].reduction if own else None
     if reduction is None:
         return _Rows(one.residual(own, measure), one.channel_of_row)
@@ -450,14 +450,14 @@ def rows_of(one: Observation, own: Sequence[Simulated], measure: Measure = Measu
 
 @dataclass(frozen=True)
 class _Eliminated:
-    """Rows of one observation once what belongs to it alone is eliminated.
+    """Rows of one observation after elimination of its initial states; or of all, after that of the nuisances.
 
     Args:
-        residual: (n,) as simulated, priors first.
-        rows: (n, 1 + n_x + k) residual, Jacobian and nuisances, each less what the eliminated columns explain.
-        solution: (n_s, 1 + n_x + k) by which multiples of these.
-        gain: nats that the eliminated numbers would gain.
-        priors: rows that are priors.
+        residual: (n,) as simulated, rows of priors first.
+        rows: (n, 1 + n_x + k) residual, Jacobian and nuisance columns, projected off the eliminated columns.
+        solution: (n_s, 1 + n_x + k) least-squares coefficients of the eliminated columns for each of these.
+        gain: nats by which a full step of the eliminated unknowns lowers the cost.
+        priors: number of rows that are priors.
     """
 
     residual: Array
@@ -468,11 +468,11 @@ class _Eliminated:
 
 
 def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> _Eliminated:
-    """Eliminate the last columns of table (n_r, 1 + n + n_s): numbers at `values` with priors of `sd` around 0.
+    """Eliminate the last n_s columns of table (n_r, 1 + n + n_s), by QR and a truncated singular value decomposition.
 
     Args:
-        more: (n_r, k) columns that stay beside the table's.
-    """
+        more: (n_r, k) columns that stay, besides the first ones of the table.
+        values, sd: (n_s,) present values of the eliminated unknowns; standard deviations of their priors around 0."""
     kept = np.column_stack([table[:, : 1 + n], more]) if more.size else table[:, : 1 + n]
     if not values.size:
         return _Eliminated(np.ascontiguousarray(table[:, 0]), kept, np.zeros((0, kept.shape[1])), 0.0, 0)
@@ -498,7 +498,7 @@ def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> 
 
 
 def _held(table: Array, more: Array, values: Array, sd: Array) -> _Eliminated:
-    """Rows with the numbers that are not free held at `values`, their priors ahead of them."""
+    """Rows with unknowns held at `values`; the rows of their priors come first."""
     rows = np.column_stack([table, more])
     ahead = np.zeros((values.size, rows.shape[1]))
     ahead[:, 0] = -values / sd
@@ -507,7 +507,7 @@ def _held(table: Array, more: Array, values: Array, sd: Array) -> _Eliminated:
 
 
 def _squares(one: Observation, table: _Rows) -> Array:
-    """Sum of squares per channel of an observation, those too that no model changes."""
+    """(n_c,) sum of squares of an observation, including the part that no model changes (`Observation.rest`)."""
     count = len(one.channels)
     if not count:
         return np.zeros(0)
@@ -515,7 +515,7 @@ def _squares(one: Observation, table: _Rows) -> Array:
 
 
 def _finite(table: Array) -> bool:
-    """Whether all numbers of a table (n, m) are finite, and so are their squares over any level."""
+    """Whether all entries of a table (n, m) are finite, and small enough for squares that are divided by any level."""
     with np.errstate(over="ignore", invalid="ignore"):
         squares = sum(
             np.vdot(own, own) for own in (table[first : first + ROWS] for first in range(0, len(table), ROWS))
@@ -528,7 +528,7 @@ def _stacked(parts: Sequence[Array]) -> Array:
 
 
 def _orbits(answer: Answer, n: int) -> tuple[list[Array | None], list[tuple[Array, Array] | None]]:
-    """States of the orbits, which need no step of their own, and how they move with x."""
+    """States of the orbits, and their steps: 0 at constant x, as the orbit is already found, and derivatives by x."""
     states: list[Array | None] = [None if orbit is None else orbit[0] for orbit in answer.orbits]
     steps: list[tuple[Array, Array] | None] = [
         None if orbit is None else (np.zeros(orbit[0].size), orbit[1][:, :n]) for orbit in answer.orbits
