@@ -1,4 +1,4 @@
-"""Magnitude and phase of a model's swing beside measured ones, with slopes."""
+"""Magnitude and phase of a model's response compared with measured ones, with derivatives."""
 
 from __future__ import annotations
 
@@ -19,16 +19,16 @@ MAGNITUDE_WEIGHT = 90 / 20
 
 @dataclass(frozen=True)
 class LogResponse:
-    """Natural logarithm of complex gains: ln(gain) + j phase, (n_f,), and its slopes (n_f, n_x)."""
+    """Natural logarithm of complex gains: ln(gain) + j phase, (n_f,), and its derivatives (n_f, n_x)."""
 
     values: Complex
     slopes: Complex
 
 
 def log_response(swing: Array, slopes: Array, amplitude: float) -> tuple[complex, Complex]:
-    """One frequency of a LogResponse from sine and cosine parts (2,) and their slopes (2, n_x).
+    """One frequency of a LogResponse from sine and cosine amplitudes (2,) and their derivatives (2, n_x).
 
-    A model that does not move has a gain whose logarithm is minus infinity; no fit can use such a point.
+    The logarithm is minus infinity if the model does not move; a fit rejects this point.
     """
     gain = complex(swing[0], swing[1]) / amplitude
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -36,10 +36,10 @@ def log_response(swing: Array, slopes: Array, amplitude: float) -> tuple[complex
 
 
 def differences(measured: Complex, simulated: LogResponse, reference: int | None) -> tuple[Array, Array]:
-    """Measured minus simulated, and its slopes: magnitudes in dB and phases in degrees, (n_f, 1 + n_x) each.
+    """Measured minus simulated magnitudes in dB and phases in degrees, each with derivatives, (n_f, 1 + n_x).
 
     Args:
-        reference: place of the frequency whose gain counts as 0 dB on both sides (Eq. 2.12); None: as they are.
+        reference: index of the frequency whose gain counts as 0 dB for both (Eq. 2.12); None: absolute gains.
     """
     gap = measured - simulated.values
     magnitude = DB * np.column_stack([gap.real, -simulated.slopes.real])
@@ -51,13 +51,13 @@ def differences(measured: Complex, simulated: LogResponse, reference: int | None
 
 
 def thesis_deviation(measured: Complex, simulated: LogResponse, reference: int | None) -> Array:
-    """90/20 of the magnitudes in dB, then the phases in degrees, (2 n_f, 1 + n_x). Source: thesis Eq. 2.25."""
+    """`differences` of magnitudes times 90/20, then of phases, (2 n_f, 1 + n_x). Source: thesis Eq. 2.25."""
     magnitude, phase = differences(measured, simulated, reference)
     return np.concatenate([MAGNITUDE_WEIGHT * magnitude, phase])
 
 
 def beside_measured(measured: FrequencyResponse, simulated: LogResponse) -> FrequencyResponse:
-    """The model's response, its phase in the turn next to the measured one."""
+    """The model's response, its phase shifted by whole turns to be near the measured one."""
     gap = np.unwrap(simulated.values.imag - measured.phase)
     phase = measured.phase + gap - 2 * np.pi * np.round(gap[0] / (2 * np.pi))
     return replace(

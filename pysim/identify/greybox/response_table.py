@@ -1,4 +1,4 @@
-"""A frequency response that exists as a table only: magnitudes and phases beside those of the model's orbits."""
+"""A frequency response that is given as a table: magnitudes and phases compared with those of the model's orbits."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ from pysim.types.record_kind import RESPONSE_TABLE
 
 Array = NDArray[np.float64]
 
-# Where a table has no covariance a degree counts as much as in Eq. 2.25, and a dB too.
+# Standard deviations if a table has no covariance: a degree and a dB are weighted as in thesis Eq. 2.25.
 UNSPECIFIED_DEG = 1.0
 UNSPECIFIED_DB = UNSPECIFIED_DEG / MAGNITUDE_WEIGHT
 
@@ -40,9 +40,9 @@ class ResponseTable:
 
     Args:
         dataset, source, use: of the table.
-        measured: the response; its test names columns.
+        measured: the response; its test names the columns of input and output.
         runs: one per frequency, recorded at equidistant points over one period.
-        reference: place of the frequency whose gain counts as 0 dB; None: gains as they are.
+        reference: index of the frequency whose gain counts as 0 dB; None: absolute gains.
     """
 
     dataset: str
@@ -69,7 +69,7 @@ class ResponseTable:
 
     @property
     def specified(self) -> bool:
-        """Whether the table says how uncertain it is."""
+        """Whether the table has a covariance."""
         return self.measured.covariance is not None
 
     channels: tuple[str, ...] = ()
@@ -77,7 +77,7 @@ class ResponseTable:
 
     @property
     def channel_of_row(self) -> NDArray[np.intp]:
-        """No row has a level of its own."""
+        """Zeros, since the rows are already in standard deviations."""
         return np.zeros(2 * self.measured.frequency.size, dtype=np.intp)
 
     @property
@@ -91,7 +91,7 @@ class ResponseTable:
         return np.zeros(0)
 
     def residual(self, answers: Sequence[Simulated], measure: Measure = Measure.SIGNAL) -> Array:
-        """Magnitudes, then phases, over their standard deviations; or as thesis Eq. 2.25 counts them."""
+        """Magnitudes, then phases, over their standard deviations; or weighted as in thesis Eq. 2.25."""
         model = self.response(answers)
         if measure is Measure.THESIS:
             return thesis_deviation(self._logarithm, model, self.reference)
@@ -100,15 +100,15 @@ class ResponseTable:
         return np.concatenate([magnitude / db[:, None], phase / deg[:, None]])
 
     def nuisance_columns(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:
-        """A table has no sensor that could be wrong."""
+        """Zeros, since sensor errors are not modelled in a table."""
         return np.zeros((2 * self.measured.frequency.size, len(nuisances)))
 
     def sensed(self, answers: Sequence[Simulated], errors: SensorErrors) -> tuple[Simulated, ...]:
-        """A table has no sensor that could be wrong."""
+        """The results unchanged, since sensor errors are not modelled in a table."""
         return tuple(answers)
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
-        """Magnitude and phase of a frequency belong together."""
+        """Magnitude and phase of each frequency are one piece."""
         return np.tile(np.arange(self.measured.frequency.size), 2)
 
     def response(self, answers: Sequence[Simulated]) -> LogResponse:
@@ -146,10 +146,10 @@ class ResponseTable:
 
 
 def response_table(context: Context, record: MeasuredRecord, response: FrequencyResponse) -> ResponseTable:
-    """One table of a data set.
+    """The observation of one table of a data set.
 
     Raises:
-        BadInput: no row at the frequency that magnitudes are to be relative to.
+        BadInput: no row at the reference frequency.
     """
     test, reference_hz = response.test, context.treatment.reference_hz
     near = np.flatnonzero(np.isclose(response.frequency, reference_hz or -1.0, rtol=1e-6))

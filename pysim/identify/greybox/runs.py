@@ -1,4 +1,4 @@
-"""Run the model for every observation at one point of the search, with slopes."""
+"""Simulate the model for every observation at one point of the search, with derivatives (sensitivities)."""
 
 from __future__ import annotations
 
@@ -28,9 +28,9 @@ class Simulation:
 
     Args:
         solver: of pysim.simulate, for runs over time and periodic ones.
-        workers: where the runs go; all cores of this machine by default.
-        mismatch: what of an orbit's correction is left to first order, in amplitudes. It is the relative error of the
-            slopes: small enough to see that a direction does nothing at all.
+        workers: where the runs are simulated; on all cores of this machine by default.
+        mismatch: largest last correction of an orbit, as a share of its amplitude, that is made to first order only.
+            It is the relative error of the derivatives, and has to be small to detect undetermined directions.
     """
 
     solver: Esdirk = field(default_factory=lambda: Esdirk(rtol=1e-5, atol=1e-5))
@@ -38,36 +38,36 @@ class Simulation:
     mismatch: float = 1e-5
 
     def rough(self, tolerance: float = FitSettings().rough) -> Simulation:
-        """Settings for the way to the optimum: good enough to come within a fraction of the noise's uncertainty."""
+        """Settings with larger tolerances for the way to the optimum."""
         solver = replace(self.solver, rtol=max(self.solver.rtol, tolerance), atol=max(self.solver.atol, tolerance))
         return replace(self, solver=solver).searching()
 
     def finer(self, factor: float = 0.1) -> Simulation:
-        """Settings for a last look, where what is compared must not be the error of the integration."""
+        """Settings with smaller tolerances, for comparisons that integration errors must not decide."""
         solver = replace(self.solver, rtol=factor * self.solver.rtol, atol=factor * self.solver.atol)
         return replace(self, solver=solver, mismatch=factor * self.mismatch)
 
     def as_fine_as(self, tolerance: float) -> Simulation:
-        """Settings with this relative tolerance, where theirs is larger."""
+        """Settings with at most this relative tolerance."""
         return self.finer(min(tolerance / self.solver.rtol, 1.0))
 
     def searching(self) -> Simulation:
-        """Settings for points that are only passed.
+        """Settings for points on the way to the optimum, with less accurate orbits.
 
-        A sample of an orbit is wrong by the square of what is left to first order, which need not be less than the
-        error of the integration; only intervals ask for slopes better than that.
+        The error of an orbit is the square of `mismatch`, which may be as large as the solver's tolerance. Only
+        intervals need more accurate derivatives.
         """
         return replace(self, mismatch=max(self.mismatch, math.sqrt(self.solver.rtol)))
 
 
 @dataclass(frozen=True)
 class Failure:
-    """Why there is no answer.
+    """Why a run failed.
 
     Args:
-        record: whose run failed.
-        outcome: how; DONE where a value was not finite.
-        message: what the run said.
+        record: record of the run.
+        outcome: how the run ended; DONE if a value was not finite.
+        message: message of the run.
     """
 
     record: str
@@ -80,12 +80,12 @@ class Failure:
 
 @dataclass(frozen=True)
 class Answer:
-    """All runs at one point.
+    """Results of all runs at one point.
 
     Args:
-        simulated: per run, in the order asked for; empty where one failed.
-        orbits: per run, the orbit's state (n_states,) and its slopes by x (n_states, n), or None.
-        failure: which run failed; None where all ran.
+        simulated: one per run, in the order of the runs; empty if one failed.
+        orbits: per run, the orbit's state (n_states,) and its derivatives by x (n_states, n), or None.
+        failure: the run that failed; None if all succeeded.
     """
 
     simulated: tuple[Simulated, ...]
@@ -107,15 +107,15 @@ def simulate_runs(
 ) -> Answer:
     """Simulate every run at x (n,).
 
-    A stepped sine's orbit is sought first; where none is found the transient test takes its place. Any other run that
-    fails makes the whole point a bad one.
+    A stepped sine is simulated as a periodic orbit; if no orbit is found, over time as a transient. If any run over
+    time fails, the answer is that failure alone.
 
     Args:
-        guesses: per run, a state to start an orbit's search from, the offset from rest of the free states at a log's
-            start, or None.
-        slopes: whether those by x are wanted; there are none where not.
-        initial: whether those by the free states are wanted.
-        reductions: per run what its rows are to become at once, or None; all None where empty.
+        guesses: per run, a first guess of an orbit's state, the offset of a log's free initial states from rest, or
+            None.
+        slopes: whether to compute derivatives by x.
+        initial: whether to compute derivatives by the free initial states.
+        reductions: per run, what reduces its rows during the run, or None; empty if none does.
     """
     settings = _Settings(space, x, slopes, initial, simulation.mismatch)
     jobs = [settings.job(run, place, guess) for place, (run, guess) in enumerate(zip(runs, guesses, strict=True))]
@@ -142,7 +142,7 @@ def simulate_runs(
 
 
 def _reduced(job: Job, runs: Sequence[Run], reductions: Sequence[Reduction | None]) -> Job:
-    """The job with its rows handed to their reduction, if there is one."""
+    """The job, set to pass its rows to the run's reduction, if there is one."""
     reduction = reductions[job.place] if reductions else None
     if reduction is None:
         return job
@@ -151,7 +151,7 @@ def _reduced(job: Job, runs: Sequence[Run], reductions: Sequence[Reduction | Non
 
 
 def _simulated(run: Sensitivities, job: Job, free: NDArray[np.intp], reduction: Reduction | None) -> Simulated:
-    """A run over time by the search's numbers; rows that could not be taken while it went on are taken now."""
+    """A run over time with derivatives by the search coordinates; rows not reduced during the run are reduced now."""
     if reduction is None:
         by_initial = run.by_offset[:, :, free if job.offset else _NONE]
         return Simulated(run.record.values, run.by_parameter @ job.slopes, by_initial)
@@ -167,7 +167,7 @@ def _take_orbits(
     orbits: list[tuple[Array, Array] | None],
     unsure: set[int],
 ) -> list[int]:
-    """Put orbits in their places; the places of those that were not found. Finite ones are no longer unsure."""
+    """Fill `answers` and `orbits`, remove finite results from `unsure`, and return the places of orbits not found."""
     left = dict(enumerate(jobs))
     for stack in results.stacks() if isinstance(results, Orbits) else ():
         chains = [jobs[number].slopes for number in stack.numbers]
@@ -189,7 +189,7 @@ def _take_orbits(
 
 
 def _chained(by_variables: Array, chains: Sequence[Array]) -> Array:
-    """Slopes of orbits (n, ..., n_v) by the search's numbers (n, ..., n_x); most logs share one chain (n_v, n_x)."""
+    """Derivatives by variables (n, ..., n_v) -> by search coordinates (n, ..., n_x), with chains (n_v, n_x)."""
     if all(chain is chains[0] for chain in chains):
         outer, (n_v, n_x) = by_variables.shape[:-1], chains[0].shape
         return (by_variables.reshape(math.prod(outer), n_v) @ chains[0]).reshape(*outer, n_x)
@@ -197,7 +197,7 @@ def _chained(by_variables: Array, chains: Sequence[Array]) -> Array:
 
 
 def _results(model: Model, jobs: list[Job], simulation: Simulation) -> Iterator[tuple[Sequence[Job], Sequence[Result]]]:
-    """Jobs with the same variables go together."""
+    """Results of the jobs, which are run in groups with the same variables."""
     groups: dict[tuple[tuple[str, ...], bool], list[Job]] = {}
     for job in jobs:
         groups.setdefault((job.names, job.offset), []).append(job)
@@ -207,7 +207,7 @@ def _results(model: Model, jobs: list[Job], simulation: Simulation) -> Iterator[
 
 @dataclass(frozen=True)
 class _Settings:
-    """What all runs at one point x (n,) have in common, worked out once: most logs have no parameters of their own."""
+    """Common input of all runs at one point x (n,), with a cache, as most logs have no parameters of their own."""
 
     space: ParameterSpace
     x: Array
@@ -217,7 +217,7 @@ class _Settings:
     _known: dict[str | None, tuple[dict[str, float], tuple[str, ...], Array]] = field(default_factory=dict)
 
     def of(self, record: str) -> tuple[dict[str, float], tuple[str, ...], Array]:
-        """Parameters of the run of a log, and by which variables it is differentiated: names (n_v), slopes (n_v, n)."""
+        """Parameters of a log's run; names (n_v) of its free and tied variables; their derivatives by x (n_v, n)."""
         key = record if record in self.space.records else None
         if key not in self._known:
             names, chain = self.space.chain(self.x, record) if self.slopes else ((), np.zeros((0, 0)))
@@ -225,7 +225,7 @@ class _Settings:
         return self._known[key]
 
     def job(self, run: Run, place: int, guess: Array | None) -> Job:
-        """One run at the point, from the state or with the offset that is guessed."""
+        """The job of one run, with the guess of its orbit's state or the offset of its initial states."""
         overrides, names, chain = self.of(run.record)
         if run.orbit is not None:
             return Job(place, run.orbit.override(**overrides), names, chain, guess, self.mismatch)

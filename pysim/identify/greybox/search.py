@@ -1,4 +1,4 @@
-"""One search from one start: propose, try, tell, write down."""
+"""One search from one start: propose a point, evaluate it, tell the optimiser, write the checkpoint."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ Array = NDArray[np.float64]
 
 
 class Tried(NamedTuple):
-    """What a progress callback receives: which search, points tried, the best cost so far, and the last point's."""
+    """What a progress callback receives: name of the search, points tried, best cost so far, cost of the last point."""
 
     search: str
     tried: int
@@ -29,7 +29,7 @@ class Tried(NamedTuple):
 
 Progress = Callable[[Tried], None]
 
-# A point and what goes along with it -> the objective there.
+# Search coordinates and the other unknowns -> the objective there.
 Evaluate = Callable[[Array, Carried], Point]
 
 
@@ -48,12 +48,12 @@ def search(
     """Search from one start until the optimiser has an outcome.
 
     Args:
-        start: (n,), or what gives the first point; not called where the search goes on from a checkpoint.
-        checkpoint: where every point is written down, or None.
-        resume: go on from the checkpoint where it holds a state; an outcome it holds is final.
-        progress: called after every point; what it raises ends the search, which can be resumed.
+        start: (n,), or a function that returns the first point; not called if the search resumes from a checkpoint.
+        checkpoint: where every point is written, or None.
+        resume: go on from the checkpoint if it has a state; if that state has an outcome, the search is over.
+        progress: called after every point; an exception in it ends the search, which can be resumed.
     Returns:
-        the last state; outcome NO_START where the model could not be simulated at the start.
+        the last state; its outcome is NO_START if the model could not be simulated at the start.
     """
     bounds = Bounds(*space.bounds())
     state = checkpoint.load() if checkpoint is not None and resume else None

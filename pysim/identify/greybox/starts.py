@@ -1,4 +1,4 @@
-"""Where searches begin: the start that was given, the model's own, and others drawn between the bounds."""
+"""Starts of the searches: the given start, the nominal values, and random starts between the bounds."""
 
 from __future__ import annotations
 
@@ -16,16 +16,16 @@ Array = NDArray[np.float64]
 def starts(
     model: Model, space: ParameterSpace, count: int, seed: int | None, *, nominal: bool = True
 ) -> Mapping[str, Array]:
-    """Name -> start (n,) in the search's numbers.
+    """Name -> start (n,) in search coordinates.
 
-    The model's own start values are among them where they lie within the bounds, unless `nominal` is False.
+    The nominal values are among them if they lie within the bounds and differ from the given start.
 
     Args:
-        count: searches from starts drawn at random, besides the given and the nominal one.
-        seed: of the draw; needed where count is above zero.
+        count: number of random starts, besides the given and the nominal one.
+        seed: seed of the random starts; needed if count is above zero.
+        nominal: False leaves out the nominal values.
     Raises:
-        BadInput: no seed, or parameters without bounds to draw between.
-    """
+        BadInput: no seed, or a parameter without finite bounds, for random starts."""
     found = {"given": space.to_search(space.start)}
     own = np.array([model[name].start for name in space.variables], dtype=np.float64)
     inside = np.all((own >= space.lower) & (own <= space.upper))
@@ -37,8 +37,8 @@ def starts(
 
 
 def _drawn(space: ParameterSpace, count: int, seed: int | None) -> dict[str, Array]:
-    """A Latin hypercube between the bounds, on the search's scale."""
-    from scipy.stats import qmc  # a quarter of a second, for those alone who draw
+    """Starts from a Latin hypercube between the bounds, in search coordinates."""
+    from scipy.stats import qmc  # takes a quarter of a second to import, so only if needed
 
     if seed is None:
         raise BadInput("fit: starts drawn at random need a seed; give one, so that the fit can be repeated")
