@@ -18,7 +18,7 @@ class NuisanceKind(Enum):
     GAIN = "gain"  # share of the signal
     OFFSET = "offset"  # in the signal's unit
     DELAY = "delay"  # s
-    DRIFT = "drift"  # in the signal's unit, from the first to the last record on the common clock
+    DRIFT = "drift"  # in the signal's unit per s, zero at the origin of the records' common clock
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""One stepped-sine log, reduced once to the harmonics of its last whole periods."""
+"""One stepped-sine log, reduced to the harmonics of its last whole periods."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ class Sine:
 
 
 def steady_sine(wave: LoggedWave) -> Sine:
-    """The sine of a log's command, in the log's time."""
+    """The sine of a log's command, in the log's time, with a positive amplitude."""
     phase = wave.phase - 2 * np.pi * wave.frequency * wave.start
     if wave.amplitude < 0:
         return Sine(wave.offset, -wave.amplitude, wave.frequency, phase + np.pi, wave.start, wave.end)
@@ -45,19 +45,19 @@ def steady_sine(wave: LoggedWave) -> Sine:
 
 @dataclass(frozen=True)
 class SineLog:
-    """The compared samples of one log and the projection onto their harmonics.
+    """The compared samples of one log and their projection onto harmonics.
 
     Args:
-        source: of the log.
+        source: source of the log.
         sine: its command.
         measured: the last whole periods, compared columns only.
         noise: (n_y,) standard deviations, in the columns' units.
-        count: harmonics.
+        count: number of harmonics.
         points: samples over one period of the model's orbit.
-        columns, triangle: orthonormal columns (n_t, n_h) that span mean and harmonics, and the triangle (n_h, n_h)
-            behind them.
-        index: of the log, as in `RecordFit`.
-        middle: of what is compared, s on the clock of all records; None where not known.
+        columns, triangle: Q (n_t, n_h) and R (n_h, n_h) of the QR factorisation of mean and harmonics, as in
+            `harmonics.regressors`.
+        index: index of the log, as in `RecordFit`.
+        middle: middle of the compared periods, s on the common clock of all records; None if not known.
     """
 
     source: str
@@ -73,31 +73,31 @@ class SineLog:
 
     @property
     def periods(self) -> int:
-        """How many whole ones are compared."""
+        """Number of compared periods."""
         time = self.measured.time
         return round(float(time[-1] - time[0]) * time.size / (time.size - 1) * self.sine.frequency)
 
     @property
     def phase(self) -> Array:
-        """Of the command at the samples, (n_t,) rad."""
+        """Phase of the command at the samples, (n_t,) rad."""
         return self.sine.at(self.measured.time)
 
     @cached_property
     def onto(self) -> Array:
-        """From a period of the model's orbit (points,) to uncorrelated harmonics of unit noise, (n_h, points)."""
+        """Matrix (n_h, points) that maps a period of the model's orbit to coefficients of the columns of Q."""
         return np.asarray(self.columns.T @ interpolation(self.phase, self.points))
 
     @cached_property
     def harmonics(self) -> Array:
-        """Measured, uncorrelated, in the columns' units, (n_h, n_y)."""
+        """Measured coefficients of the columns of Q, (n_h, n_y) in the signals' units; uncorrelated for white noise."""
         return np.asarray(self.columns.T @ self.measured.values)
 
     @cached_property
     def unlike(self) -> float:
-        """How far the first compared period is from those after it, in standard deviations: the largest difference of
-        a mean, a sine or a cosine; zero where there is one period only.
+        """Difference of the first compared period from the later ones, in standard deviations: the largest one of a
+        mean, sine or cosine amplitude; zero if the samples are too few for both.
 
-        A valve that is too slow for the sine, or a plate that sticks, may need many periods more than were left out.
+        A large value means that the log has not settled: a slow valve or a sticking plate may need many periods.
         """
         phase = self.phase
         first = int(np.searchsorted(phase, phase[0] + (1 - 1e-6) * 2 * np.pi))
@@ -107,8 +107,8 @@ class SineLog:
         return float(np.max(np.abs(rest - begun) / np.sqrt(one + other)))
 
     def _fitted(self, part: slice) -> tuple[Array, Array]:
-        """Mean, sine and cosine of each harmonic in turn, fitted to a part of the samples, and their variances, both
-        (n_h, n_y) in the columns' units."""
+        """Mean, and sine and cosine amplitude of each harmonic, fitted to a part of the samples; and their variances.
+        Both are (n_h, n_y), in the signals' units or their squares."""
         columns, values = self.columns[part], self.measured.values[part]
         spread = np.linalg.inv(columns.T @ columns)
         found = spread @ (columns.T @ values)
@@ -118,35 +118,35 @@ class SineLog:
         return back @ found, variances[:, None] * np.maximum(scatter, self.noise) ** 2
 
     def coefficients(self, uncorrelated: Array) -> NDArray[np.complex128]:
-        """(n_h, ...) as `harmonics` -> mean and complex harmonics (count + 1, ...)."""
+        """Coefficients (n_h, ...) as in `harmonics` -> mean and complex harmonics (count + 1, ...)."""
         return to_complex(np.asarray(np.linalg.solve(self.triangle, uncorrelated), dtype=np.float64))
 
     @property
     def variances(self) -> Array:
-        """Of mean, sines and cosines at unit noise, (n_h,)."""
+        """Variances of mean, sine and cosine amplitudes for white noise of variance 1, (n_h,)."""
         return np.asarray(np.sum(np.linalg.inv(self.triangle) ** 2, axis=1))
 
     @property
     def scatter(self) -> Array:
-        """Root mean square of what mean and harmonics leave of each column, in its unit, (n_y,)."""
+        """Root mean square of the samples less mean and harmonics, in the signals' units, (n_y,)."""
         rest = self.measured.values - self.columns @ self.harmonics
         return np.asarray(np.sqrt(np.mean(rest**2, axis=0)))
 
     def deviations(self) -> Array:
-        """Standard deviation of the size of mean and harmonics at unit noise, (count + 1,)."""
+        """Standard deviation of mean and harmonic amplitudes for white noise of variance 1, (count + 1,)."""
         variance = self.variances
         return np.sqrt(np.concatenate([variance[:1], 0.5 * (variance[1::2] + variance[2::2])]))
 
     def fundamental(self) -> Array:
-        """Rows (2, n_h) that take uncorrelated harmonics to the fundamental's sine and cosine parts."""
+        """Matrix (2, n_h) that maps coefficients as in `harmonics` to sine and cosine amplitude of the fundamental."""
         return np.asarray(np.linalg.inv(self.triangle)[1:3])
 
 
 def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan, *, index: int) -> SineLog:
-    """Cut the last whole periods after settling.
+    """Cut the last whole periods after settling, and choose how many harmonics are compared.
 
     Raises:
-        BadInput: no whole period is left.
+        BadInput: no whole period is left, or too few samples.
     """
     period = 1 / sine.frequency
     gap = float(np.median(np.diff(data.time))) if data.time.size > 1 else 0.0
@@ -165,7 +165,7 @@ def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], pl
     if cut.time.size < 2 * least + 2:
         raise BadInput(f"{source}: {cut.time.size} samples in {whole} periods are too few; record faster")
     phase = sine.at(cut.time)
-    most = max(least, most) if len(phase) > 3 * most else least  # as many are left for the noise
+    most = max(least, most) if len(phase) > 3 * most else least  # enough samples remain to estimate the noise
     columns, triangle = np.linalg.qr(regressors(phase, most))
     count = max(least, _seen(cut.values, columns))
     size = 2 * count + 1
@@ -174,12 +174,12 @@ def sine_log(source: str, data: Record, sine: Sine, noise: tuple[float, ...], pl
 
 
 def _seen(values: Array, columns: Array) -> int:
-    """The highest harmonic that stands out of what all of them leave of some column of values (n_t, n_y).
+    """The highest harmonic that is significant in some column of values (n_t, n_y), against the remaining noise; or 0.
 
-    A valve's dead band shows in harmonics that no sine has; where they are not compared, they count as noise.
+    A valve's dead band shows in high harmonics, which would count as noise if they were not compared.
 
     Args:
-        columns: (n_t, n_h) orthonormal, of mean and harmonics.
+        columns: (n_t, n_h) orthonormal columns that span mean and harmonics.
     """
     parts = columns.T @ values
     freedom, most = len(values) - columns.shape[1], columns.shape[1] // 2

@@ -1,4 +1,4 @@
-"""The model's run for a sine that lasts: its periodic orbit, and the same test as a transient."""
+"""The model's run for a steady sine: its periodic orbit, and the same test simulated over time as a transient."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ def steady_run(
     """The orbit of a stepped sine, and the same test as a transient, both recorded over one period from phase zero.
 
     Args:
-        settle: s of the sine that the transient has for itself at least.
-        middle: of what is compared, s on the clock of all records; None where not known.
+        settle: shortest duration in s of the sine before the transient is recorded.
+        middle: middle of the compared periods, s on the common clock of all records; None if not known.
     """
     plan, period = context.treatment.sine, 1 / sine.frequency
     name = context.variable(column)
@@ -67,10 +67,10 @@ def steady_run(
 
 
 def settled_run(context: Context, source: str, test: SineTest, sine: Sine) -> Run:
-    """One for a table, which tells of a steady state and not how long the bench waited for it.
+    """The run for one frequency of a table, which does not say how long the bench let the plant settle.
 
-    A transient lasts twice as long as until the model repeats itself at its own parameters, since others may be slower.
-    Where it never does, the plan counts.
+    A transient settles for twice the time until the nominal model is periodic, since with other parameters it may be
+    slower. If it never becomes periodic, it settles for the planned time.
     """
 
     def run(settle: float) -> Run:
@@ -88,7 +88,7 @@ def settled_run(context: Context, source: str, test: SineTest, sine: Sine) -> Ru
 
 
 def _repeats(model: Model, experiment: Experiment, period: float) -> bool:
-    """Whether the period after the recorded one is the same."""
+    """Whether the period after the recorded one is equal to it, within `SteadySettings.repeated`."""
     times = np.concatenate([experiment.times, experiment.times + period])
     record = simulate(model, replace(experiment, times=times), solver=Rodas(), check=False)
     if record.outcome is not Outcome.DONE:

@@ -1,4 +1,4 @@
-"""The stepped sines of one test: their harmonics beside those of the model's periodic orbits."""
+"""The stepped sines of one test: their harmonics compared with those of the model's periodic orbits."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ class SteppedSines:
         dataset, use: of the logs.
         logs: by increasing frequency.
         runs: one per log, recorded at equidistant points over one period.
-        reference: place of the log whose gain counts as 0 dB; None: gains as they are.
+        reference: index of the log whose gain counts as 0 dB; None: absolute gains.
     """
 
     dataset: str
@@ -60,7 +60,7 @@ class SteppedSines:
 
     @property
     def sources(self) -> tuple[str, ...]:
-        """Of the logs."""
+        """Sources of the logs."""
         return tuple(log.source for log in self.logs)
 
     def with_runs(self, runs: Sequence[Run]) -> SteppedSines:
@@ -78,26 +78,26 @@ class SteppedSines:
 
     @property
     def noise(self) -> tuple[float, ...]:
-        """Of each column."""
+        """(n_y,) standard deviation of each column's noise, in its unit."""
         return self.logs[0].noise
 
     @property
     def channel_of_row(self) -> NDArray[np.intp]:
-        """Log by log, harmonic by harmonic, signal by signal within each."""
+        """Index of each row's signal; rows are ordered by log, then harmonic, then signal."""
         return np.tile(np.arange(len(self.channels)), sum(log.harmonics.shape[0] for log in self.logs))
 
     @property
     def samples(self) -> Array:
-        """The compared samples of all logs."""
+        """Number of compared samples of all logs, per signal."""
         return np.full(len(self.channels), float(sum(log.measured.time.size for log in self.logs)))
 
     @cached_property
     def rest(self) -> Array:
-        """Squares of what mean and harmonics leave of the samples."""
+        """Sum of squares of the samples less mean and harmonics, per signal."""
         return np.sum([log.measured.time.size * log.scatter**2 for log in self.logs], axis=0)
 
     def without(self, sources: Collection[str]) -> SteppedSines:
-        """The same without the logs of these sources; gains are as they are where the reference is among them."""
+        """The stepped sines without the logs of these sources; gains are absolute if the reference is one of them."""
         kept = [i for i, log in enumerate(self.logs) if log.source not in sources]
         logs, runs = tuple(self.logs[i] for i in kept), tuple(self.runs[i] for i in kept)
         return replace(
@@ -105,7 +105,7 @@ class SteppedSines:
         )
 
     def residual(self, answers: Sequence[Simulated], measure: Measure = Measure.SIGNAL) -> Array:
-        """Mean and harmonics, uncorrelated; or magnitudes and phases (thesis Eq. 2.11 to 2.13 and 2.25)."""
+        """Differences of `SineLog.harmonics`; or of magnitudes and phases (thesis Eq. 2.11 to 2.13 and 2.25)."""
         if measure is Measure.THESIS:
             return np.concatenate([self._deviation(answers, j) for j in range(len(self.channels))])
         parts: dict[int, Array] = {}
@@ -122,7 +122,7 @@ class SteppedSines:
 
     @cached_property
     def _stacks(self) -> list[tuple[list[int], Array, Array]]:
-        """Places of logs with as many harmonics, their `onto` (n, n_h, points) and `harmonics` (n, n_h, n_y)."""
+        """Logs grouped by number of harmonics: indices, `onto` (n, n_h, points) and `harmonics` (n, n_h, n_y)."""
         groups: dict[tuple[int, ...], list[int]] = {}
         for i, log in enumerate(self.logs):
             groups.setdefault(log.onto.shape, []).append(i)
@@ -136,7 +136,7 @@ class SteppedSines:
         return thesis_deviation(measured, self.response(answers, column), self.reference)
 
     def nuisance_columns(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:
-        """See Observation. A drift is the same for all of a sine that is steady: what it has come to by its middle."""
+        """See Observation. A drift counts as constant over a steady sine, with its value at the middle."""
         parts = []
         for log, answer in zip(self.logs, answers, strict=True):
             columns = np.tensordot(log.onto, self._by_error(log, answer, nuisances), 1)
@@ -153,7 +153,7 @@ class SteppedSines:
         )
 
     def _by_error(self, log: SineLog, answer: Simulated, nuisances: Sequence[Nuisance]) -> Array:
-        """What one unit of each nuisance adds to a period of the orbit, (points, n_y, k)."""
+        """What one unit of each sensor error adds to a period of the orbit, (points, n_y, k)."""
         found = np.zeros((*answer.values.shape, len(nuisances)))
         for k, one in enumerate(nuisances):
             if one.dataset == self.dataset and one.signal in self.channels:
@@ -162,16 +162,16 @@ class SteppedSines:
         return found
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
-        """A steady sine is one cluster."""
+        """Each log is one piece, since its harmonics are not independent."""
         return np.repeat(np.arange(len(self.logs)), [log.harmonics.size for log in self.logs])
 
     @cached_property
     def measured_gains(self) -> NDArray[np.complex128]:
-        """ln(gain) + j phase of every log and column, (n_f, n_y)."""
+        """Measured ln(gain) + j phase of every log and signal, (n_f, n_y)."""
         return np.array([np.log(log.coefficients(log.harmonics)[1] / log.sine.amplitude) for log in self.logs])
 
     def response(self, answers: Sequence[Simulated], column: int) -> LogResponse:
-        """The model's response in one column."""
+        """The model's frequency response of one signal."""
         rows = []
         for log, answer in zip(self.logs, answers, strict=True):
             onto = log.fundamental() @ log.onto
@@ -181,7 +181,7 @@ class SteppedSines:
         return LogResponse(np.array([row[0] for row in rows]), np.array([row[1] for row in rows]))
 
     def beside(self, answers: Sequence[Simulated]) -> tuple[tuple[RecordFit, ...], tuple[ResponseFit, ...]]:
-        """Every log, and the response that they are together, with the criteria of thesis Table 1.3."""
+        """Every log, and the frequency response of all logs, with the criteria of thesis Table 1.3."""
         records = tuple(self._record(log, answer) for log, answer in zip(self.logs, answers, strict=True))
         return records, tuple(self._response(answers, j) for j in range(len(self.channels)))
 
@@ -213,7 +213,7 @@ class SteppedSines:
 
 
 def _effect(kind: NuisanceKind, orbit: Array, log: SineLog) -> Array:
-    """What one unit of a sensor's error adds to a period of an orbit (points,)."""
+    """What one unit of a sensor error adds to a period of an orbit (points,)."""
     if kind is NuisanceKind.GAIN:
         return orbit
     if kind is NuisanceKind.OFFSET:
@@ -226,7 +226,7 @@ def _effect(kind: NuisanceKind, orbit: Array, log: SineLog) -> Array:
 
 @dataclass(frozen=True, eq=False)
 class Swing:
-    """One stepped sine: its record, what of it is compared, and the model's run for that."""
+    """One stepped sine: its record, the compared periods, and the model's run."""
 
     record: MeasuredRecord
     log: SineLog
@@ -234,11 +234,11 @@ class Swing:
 
 
 def swing(context: Context, record: MeasuredRecord, index: int) -> Swing:
-    """One log of a stepped sine, with its number."""
+    """The stepped sine of one record, with its index among the logs; other commands are taken as constant."""
     columns, outputs = context.columns(record)
     data = record.data
     assert isinstance(data, Record)
-    swinging = max(columns, key=lambda column: float(np.std(data[column])))  # the others stand still
+    swinging = max(columns, key=lambda column: float(np.std(data[column])))  # the others are constant
     sine = steady_sine(logged_wave(record, swinging))
     noise = tuple(context.noise[name] for name in outputs)
     log = _settled(record.source, kept_columns(data, outputs), sine, noise, context.treatment.sine, index)
@@ -250,8 +250,8 @@ def swing(context: Context, record: MeasuredRecord, index: int) -> Swing:
 
 
 def _settled(source: str, data: Record, sine: Sine, noise: tuple[float, ...], plan: SinePlan, index: int) -> SineLog:
-    """The whole periods behind settling. Where the plan names no time for it, the log itself says how many are left
-    out: as long as the first that is compared is unlike those after it, and half of them at most.
+    """The whole periods after settling. If the plan has no settling time, periods are left out until the first compared
+    one agrees with the later ones, but at most half of them.
     """
     log = sine_log(source, data, sine, noise, plan, index=index)
     if plan.settle_time is not None:
@@ -264,16 +264,16 @@ def _settled(source: str, data: Record, sine: Sine, noise: tuple[float, ...], pl
 
 
 def unsettled(logs: Sequence[SineLog]) -> list[bool]:
-    """Of each log of a data set, whether the plant had not settled when its compared periods began: none of its periods
-    stands for all.
-    """
+    """For each log of a data set, whether the plant had not settled when its compared periods began.
+
+    If one log exceeds the limit, a lower limit applies to all, since they are likely to have the same cause."""
     away = [log.unlike for log in logs]
     limit = _SETTINGS.also if max(away, default=0.0) > _SETTINGS.unlike else _SETTINGS.unlike
     return [z > limit for z in away]
 
 
 def stepped_sines(context: Context, swings: Sequence[Swing]) -> list[SteppedSines]:
-    """Swings of one data set, those of one test together."""
+    """Group the stepped sines of a data set by test: same use, offset, amplitude and columns."""
     tests: dict[tuple[object, ...], list[Swing]] = {}
     for one in swings:
         record = one.record

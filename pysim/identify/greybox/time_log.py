@@ -1,4 +1,4 @@
-"""A log over time: sample by sample beside the model driven by the logged command, from where the plant stood."""
+"""A log over time, compared sample by sample with the model, which is driven by the logged command."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ from pysim.types import Experiment, MeasuredRecord, MeasuredSignal, Outcome, Rec
 
 Array = NDArray[np.float64]
 
-_WATCHED = 1000  # samples of a log at which the range of the model's states is looked at
+_WATCHED = 1000  # samples of a log, at most, from which the range of the model's states is taken
 
 
 @dataclass(frozen=True)
@@ -31,10 +31,10 @@ class TimeLog:
         dataset, source, kind, use: of the log.
         measured: the compared columns.
         noise: (n_y,) standard deviations, in the columns' units.
-        full_scale: (n_y,) what counts as 100 percent, in the columns' units.
+        full_scale: (n_y,) value that counts as 100 percent, in the columns' units.
         run: the model's run, recorded at the log's times.
-        index: of the log, as in `RecordFit`.
-        begin: s, of the first sample on the clock of all records; None where not known.
+        index: index of the log, as in `RecordFit`.
+        begin: time of the first sample in s on the common clock of all records; None if not known.
     """
 
     dataset: str
@@ -64,7 +64,7 @@ class TimeLog:
         return replace(self, run=runs[0])
 
     def head(self, share: float) -> TimeLog:
-        """See Observation. There are twice as many numbers as states at least."""
+        """See Observation. At least twice as many measured values as free initial states are kept."""
         if not self.run.begins_anywhere:
             return self
         least = math.ceil(2 * self.run.free.size / len(self.channels))
@@ -82,21 +82,21 @@ class TimeLog:
 
     @property
     def channel_of_row(self) -> NDArray[np.intp]:
-        """Signal by signal within each sample."""
+        """Index of each row's signal; rows are ordered by sample, then signal."""
         return np.tile(np.arange(len(self.channels)), self.measured.time.size)
 
     @property
     def samples(self) -> Array:
-        """All of them."""
+        """Number of samples of each signal."""
         return np.full(len(self.channels), float(self.measured.time.size))
 
     @property
     def rest(self) -> Array:
-        """Nothing is left out."""
+        """Zeros, since `residual` has every sample."""
         return np.zeros(len(self.channels))
 
     def residual(self, answers: Sequence[Simulated], measure: Measure = Measure.SIGNAL) -> Array:
-        """Per sample and signal; in percent of full scale as the thesis counts it (Eq. 2.24, Table 4.9)."""
+        """Rows per sample and signal; in percent of full scale for the thesis' measure (Eq. 2.24, Table 4.9)."""
         (answer,) = answers
         size = np.array(self.full_scale) / 100 if measure is Measure.THESIS else np.ones(len(self.channels))
         free = answer.by_initial.shape[2]
@@ -109,7 +109,7 @@ class TimeLog:
         return rows.reshape(-1, rows.shape[2])
 
     def nuisance_columns(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:
-        """See Observation. A drift is a straight line over the common clock, zero at its origin."""
+        """See Observation. One unit of drift is 1 per s on the common clock, from zero at the clock's origin."""
         (answer,) = answers
         time, columns = self.measured.time, np.zeros((*self.measured.values.shape, len(nuisances)))
         for k, one in enumerate(nuisances):
@@ -139,7 +139,7 @@ class TimeLog:
         )
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
-        """Contiguous stretches of whole samples, as long as the slowest channel needs them to be."""
+        """Contiguous stretches of samples of equal length, set by the channel with the largest lambda."""
         rows = residual.reshape(-1, len(self.channels))
         count = independent_pieces(rows, shortest)
         return np.repeat(np.arange(len(rows)) * count // len(rows), len(self.channels))
@@ -160,13 +160,13 @@ class TimeLog:
 
 
 def time_logs(context: Context, records: Sequence[tuple[int, MeasuredRecord]]) -> list[TimeLog]:
-    """The logs over time among the records of a data set, each with its number."""
+    """The observations of logs over time, given as index and record, with the priors of their initial states."""
     logs = [_log(context, record, index) for index, record in records]
     known = [_initial(context, record) for _, record in records]
     free = [i for i, one in enumerate(known) if one != "rest"]
     ranges = _state_ranges(context, [logs[i].run.experiment for i in free])
     for i, spread in zip(free, ranges, strict=True):
-        unknown = known[i] == "estimate"  # of states too that no input moves, as of a mass that is let go
+        unknown = known[i] == "estimate"  # also of states that no input moves, such as a mass that is released
         sd = np.full(spread.shape, math.inf) if unknown else context.treatment.noise.initial * spread
         run = replace(logs[i].run, initial=sd)
         logs[i] = replace(logs[i], run=run)
@@ -174,7 +174,7 @@ def time_logs(context: Context, records: Sequence[tuple[int, MeasuredRecord]]) -
 
 
 def _initial(context: Context, record: MeasuredRecord) -> str:
-    """What is known of the plant at a log's first sample; start values that are parameters hold the states."""
+    """What is known of the plant's state at a log's first sample; "rest" if start values of states are parameters."""
     started = record.source in context.started or None in context.started
     return "rest" if started else record.initial or context.treatment.initial
 
@@ -214,7 +214,7 @@ def _log(context: Context, record: MeasuredRecord, index: int) -> TimeLog:
 
 
 def _state_ranges(context: Context, experiments: Sequence[Experiment]) -> list[Array]:
-    """How far each state moves over each log (n_x,) as the model stands; its nominal size where that cannot be run."""
+    """Range of each state over each log (n_x,), of the nominal model; nominal sizes if it cannot be simulated."""
     states = context.model.abilities.states
     if not states or not experiments:
         return [np.zeros(0)] * len(experiments)
@@ -228,27 +228,27 @@ def _state_ranges(context: Context, experiments: Sequence[Experiment]) -> list[A
 
 
 def kept_columns(data: Record, names: tuple[str, ...]) -> Record:
-    """Some columns of a log."""
+    """The log with these columns only."""
     places = [data.names.index(name) for name in names]
     units, values = tuple(data.units[i] for i in places), data.values[:, places].copy()
-    values.setflags(write=False)  # so that a long log is not copied once more
+    values.setflags(write=False)  # so that Record does not copy a long log again
     return Record(data.time, values, names, units, origin=data.origin)
 
 
 def full_scale(signal: MeasuredSignal, values: Array) -> float:
-    """What counts as 100 percent: 100 %, 1, else the largest measured size."""
+    """Value that counts as 100 percent: 100 for the unit %, 1 for the unit 1, else the largest measured magnitude."""
     return {"%": 100.0, "1": 1.0}.get(signal.unit) or float(np.max(np.abs(values))) or 1.0
 
 
 def from_rest(signal: Signal, start: float, first: float, times: tuple[float, float]) -> tuple[Signal, float]:
-    """The command with its way from rest ahead of it.
+    """Put a ramp and a hold before a command, so that the model settles at the command's first value.
 
     Args:
-        signal: the command from `start` (s) on.
-        first: the input's start value, at which the model starts; in the signal's unit.
-        times: s of the ramp from there to the command's first value, and of that value.
+        signal: the command; its part before `start` (s) is cut off.
+        first: the input's start value in the model, in the signal's unit.
+        times: durations in s of the ramp from `first` to the command's value at `start`, and of the hold there.
     Returns:
-        the whole command, and when its run has to start, s.
+        the whole command, and the start of the run in s. There is no ramp if both values are equal.
     """
     tail, (ramp, hold) = _cut(signal, start), times
     if not (ramp > 0 and hold > 0):
@@ -264,7 +264,7 @@ def from_rest(signal: Signal, start: float, first: float, times: tuple[float, fl
 
 
 def _cut(signal: Signal, start: float) -> Signal:
-    """The same signal from `start` on, without what was before."""
+    """The signal from `start` on."""
     k = max(int(np.searchsorted(signal.starts, start, side="right")) - 1, 0)
     s = start - signal.starts[k]
     if s <= 0:

@@ -1,4 +1,4 @@
-"""Which measurements a model is compared with, and how."""
+"""Measurements that a model is compared with, and how they are compared."""
 
 from __future__ import annotations
 
@@ -18,9 +18,9 @@ class Measurements:
 
     Args:
         dataset: its records of use "validate" are compared, never fitted.
-        overrides: parameters that differ from the model's own in these tests, in the variables' units.
-        outputs: columns to compare; every measured output where None.
-        noise: column -> standard deviation in its unit, in place of what the data set says.
+        overrides: parameters that differ from the nominal ones in these tests, in the variables' units.
+        outputs: columns to compare; every measured output if None.
+        noise: column -> standard deviation in its unit, which replaces what the data set specifies.
     """
 
     dataset: Dataset
@@ -38,11 +38,11 @@ class Measurements:
 
 @dataclass(frozen=True)
 class Rest:
-    """How the model comes to rest at the first sample's input, as the bench did (thesis Section 2.1.1, step 1).
+    """How the model settles at the first sample's input before a log, as on the bench (thesis Section 2.1.1, step 1).
 
     Args:
-        ramp: s, from the input's start value to the first sample's; half the model's settling time where None.
-        hold: s, at that value until the log starts; twice the model's settling time where None.
+        ramp: s from the input's start value to its value at the first sample; None: half the model's settling time.
+        hold: s at that value until the log starts; None: twice the model's settling time.
     Raises:
         BadInput: a duration that is not positive.
     """
@@ -56,7 +56,7 @@ class Rest:
                 raise BadInput(f"rest: ramp and hold must be positive times in s, got {self.ramp} and {self.hold}")
 
     def times(self, settling: float) -> tuple[float, float]:
-        """Ramp and hold of a model that settles within so many s."""
+        """Ramp and hold in s, for a model with this settling time in s."""
         return (settling / 2 if self.ramp is None else self.ramp, 2 * settling if self.hold is None else self.hold)
 
 
@@ -65,12 +65,11 @@ class SinePlan:
     """How a stepped-sine log is cut and compared.
 
     Args:
-        settle_time: s of the sine that are left out, and
-        settle_periods: whole periods, whichever is longer; more of them where `settle_time` is None and the first that
-            is compared is unlike those after it.
-        harmonics: how many are compared at least, where the sampling tells them apart; more where more are measured, a
-            quarter of `points` at most.
-        points: samples over one period of the model's orbit.
+        settle_time: s of the sine that are left out for settling; see `settle_periods`.
+        settle_periods: whole periods that are left out if they are longer than `settle_time`. If that is None, more are
+            left out until the first compared period agrees with the later ones.
+        harmonics: fewest harmonics to compare, if the sampling resolves them; more are compared if significant.
+        points: samples over one period of the model's orbit; at most a quarter of `points` harmonics are compared.
     Raises:
         BadInput: fewer than one harmonic, or too few points for the harmonics.
     """
@@ -95,16 +94,16 @@ class Treatment:
     """How logs are compared.
 
     Args:
-        rest: how the model comes to rest before a log over time; None starts it as the model says, at the log's start.
-        sine: what of a stepped sine is compared.
-        reference_hz: whose gain counts as 0 dB in responses (Eq. 2.12); None compares gains as they are.
-        steady: "orbit" seeks each stepped sine's periodic steady state; "transient" runs the test as the bench did,
-            for models that have none (sampling, play, chaos).
-        initial: what is known of the plant at the first sample of a log that does not say it itself: "near rest",
-            "rest", or "estimate" where nothing is.
-        noise: the numbers that residuals are judged by.
+        rest: how the model settles before a log over time; None starts it at the log's start, at its start values.
+        sine: which periods and harmonics of a stepped sine are compared.
+        reference_hz: frequency whose gain counts as 0 dB in responses (Eq. 2.12); None compares absolute gains.
+        steady: "orbit" compares each stepped sine with the model's periodic steady state; "transient" simulates the
+            test over time, for models without such a state (sampling, play, chaos).
+        initial: state of the plant at the first sample of a log that does not specify it: "near rest", "rest", or
+            "estimate" if nothing is known of it.
+        noise: settings of levels, priors and blocks.
     Raises:
-        BadInput: a word that is not known.
+        BadInput: an unknown word for `steady` or `initial`.
     """
 
     rest: Rest | None = field(default_factory=Rest)

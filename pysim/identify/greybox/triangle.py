@@ -1,4 +1,4 @@
-"""The triangle of a tall matrix, rows after rows, so that memory does not grow with them."""
+"""QR triangle of a tall matrix, made row by row, so that memory does not grow with the number of rows."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-ROWS = 8192  # that are worked on at a time: a few MB
+ROWS = 8192  # rows that are factorised at a time: a few MB
 
 
 def triangle(parts: Iterable[Array]) -> Array:
-    """R (m, m) of the QR factors of all parts (n_i, m) below each other; zero rows where they are fewer than m.
+    """R (m, m) of the QR factorisation of all parts (n_i, m) stacked; the last rows are zero if there are fewer than m.
 
     Source: Demmel, Grigori, Hoemmen and Langou 2012, SIAM Journal on Scientific Computing 34:A206.
     """
