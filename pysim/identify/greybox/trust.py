@@ -1,4 +1,4 @@
-"""When a fit is not to be trusted: what it shows itself, from its residuals, bounds and correlations."""
+"""Warnings about a fit that should not be trusted, from its residuals, bounds, correlations and outcome."""
 
 from __future__ import annotations
 
@@ -20,9 +20,9 @@ _SAID = (NoteCode.NOT_AT_REST, NoteCode.NOT_SIMULATED)
 
 
 def fit_warnings(fit: Fit) -> tuple[Note, ...]:
-    """Why the parameters or their intervals may be wrong; nothing of a fit that can be trusted.
+    """Reasons why the parameters or their intervals may be wrong; none for a fit that can be trusted.
 
-    The residuals are far above the noise, a parameter stands at a bound, parameters are nearly interchangeable, a log
+    The residuals are far above the noise, a parameter is at a bound, parameters are nearly interchangeable, a log
     did not begin at rest, a record could not be simulated, or the search ended before it had converged.
     """
     found = [*_poor(fit.records, fit.misfit), *(note for note in fit.notes if note.code in _SAID)]
@@ -33,25 +33,25 @@ def fit_warnings(fit: Fit) -> tuple[Note, ...]:
 
 
 def step_warnings(step: ErrorStep) -> tuple[Note, ...]:
-    """The same of a model that a diagnosis has refitted."""
+    """Reasons why a refit of a diagnosis may be wrong: large residuals, or parameters at bounds or interchangeable."""
     return (*_poor(step.records, 0.0), *_open(step))
 
 
 def _open(found: Fit | ErrorStep) -> Iterator[Note]:
-    """Parameters at a bound, and those that the data do not tell apart."""
+    """Notes on parameters at a bound, and on parameters that the data do not separate."""
     yield from (at_bound(one) for one in found.estimates if one.at)
     for one in found.undetermined:
         yield Note(NoteCode.INTERCHANGEABLE, {**one.exponents, "@spread": one.spread})
 
 
 def at_bound(one: Estimate) -> Note:
-    """That a parameter stopped at its bound."""
+    """The note that a parameter is at its bound."""
     bound = one.lower if one.at == "lower" else one.upper
     return Note(NoteCode.AT_BOUND, {"parameter": one.name, "bound": bound, "value": one.value, "unit": one.unit})
 
 
 def _poor(records: Sequence[RecordFit], misfit: float) -> Iterator[Note]:
-    """The worst signal, where its residual on the fitted logs is more than noise; without logs the misfit of all."""
+    """A note if the worst signal's residual in fitted logs is far above its noise; without logs, if `misfit` is."""
     squares: dict[str, list[float]] = {}
     for record in records:
         if record.use == "fit":
@@ -66,7 +66,7 @@ def _poor(records: Sequence[RecordFit], misfit: float) -> Iterator[Note]:
 
 
 def _correlated(fit: Fit) -> Iterator[Note]:
-    """Pairs of which neither is well known, beyond those in the directions that are said already."""
+    """Notes on correlated pairs of badly known parameters, unless an undetermined direction already has both."""
     said = [set(one.exponents) for one in fit.undetermined]
     names, matrix = [one.name for one in fit.estimates], fit.correlation
     vague = [one.std > _SETTINGS.vague * abs(one.value) for one in fit.estimates]
@@ -78,17 +78,17 @@ def _correlated(fit: Fit) -> Iterator[Note]:
 
 
 def not_at_rest(residuals: WeightedResiduals, model: Model, space: ParameterSpace, point: Point) -> list[Note]:
-    """Logs that did not begin at rest although they were taken so.
+    """Notes on logs that did not begin at rest, although the fit assumed it.
 
-    A log whose states are free around rest says it by where they begin. Of one that was held at rest, other initial
-    states would explain a good part of its residual, or the residual is much larger where the log begins.
+    If initial states are free around rest, their estimates show it. If a log was held at rest, either other initial
+    states would explain a large part of its residual, or the residual is much larger at the log's beginning.
 
     Args:
         residuals: of the fitted logs.
         model, space, point: the fit.
     """
     if any(name in model.abilities.states for name in space.variables):
-        return []  # where a state begins is fitted
+        return []  # initial states are fitted as parameters
     found, first = [], 0
     for one in residuals.observations:
         own = point.carried.states[first : first + len(one.runs)]
@@ -101,7 +101,7 @@ def not_at_rest(residuals: WeightedResiduals, model: Model, space: ParameterSpac
 
 
 def _is_away(run: Run, offset: NDArray[np.float64] | None) -> bool:
-    """By a share of a state's range; where a state is free anyway it was not taken to be at rest."""
+    """Whether an estimated initial state is away from rest by a share of its range; unknown states do not count."""
     if offset is None:
         return False
     ranges = math.sqrt(12) * run.initial[run.free]
@@ -111,7 +111,7 @@ def _is_away(run: Run, offset: NDArray[np.float64] | None) -> bool:
 def _is_explained(
     residuals: WeightedResiduals, one: Observation, model: Model, space: ParameterSpace, point: Point
 ) -> bool:
-    """By the share of a log's residual that other initial states would take off, or by how it begins."""
+    """Whether free initial states would lower a log's sum of squares much, or its first residuals are much larger."""
     run = replace(one.runs[0], initial=np.full(len(model.abilities.states), math.inf))
     alone = replace(residuals, observations=(one.with_runs([run]),))
     there = alone.evaluate(model, space, point.x, jacobian=False)
@@ -122,7 +122,7 @@ def _is_explained(
 
 
 def _begins_apart(residual: NDArray[np.float64]) -> bool:
-    """Whether the first samples are much further from the model than the others, and than noise."""
+    """Whether the first residuals are much larger than the later ones."""
     count = max(math.ceil(_SETTINGS.beginning * residual.size), _SETTINGS.fewest)
     first, rest = (math.sqrt(float(np.mean(part**2))) for part in (residual[:count], residual[count:]))
     return residual.size > 4 * count and first > _SETTINGS.apart * rest

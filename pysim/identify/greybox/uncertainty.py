@@ -1,7 +1,7 @@
-"""How well the data determine the parameters: intervals from blocks, and combinations of what is not determined.
+"""Intervals of the parameters from blocks of the data, and combinations of parameters that are determined.
 
-Residuals are neither independent nor white where a model is a little wrong. The blocks of the data are: the scatter of
-their scores gives an interval that holds for any colour (a sandwich), unbiased where residuals are white after all.
+If a model is a little wrong, its residuals are not independent. Blocks of the data nearly are: the scatter of their
+scores gives intervals that hold for any colour (a sandwich estimator), and are unbiased if the residuals are white.
 
 Source: White 1980, Econometrica 48:817; Bell and McCaffrey 2002, Survey Methodology 28:169 (CR2, degrees of freedom).
 """
@@ -26,24 +26,24 @@ from pysim.types import Combination, Estimate
 Array = NDArray[np.float64]
 
 _SETTINGS = FitSettings()
-# Nearer than this share of its standard deviation, or of the bounds' distance, an estimate stands at its bound.
+# An estimate is at its bound if it is nearer than this times the bounds' distance (at least 1), in search coordinates.
 _AT_BOUND = 1e-6
-# Half width, as a logarithm, beyond which numbers end: of a parameter's interval as of a combination's.
+# Largest half width of an interval, as a natural logarithm; the exponential of much more overflows.
 _FARTHEST = 300.0
 
 
 @dataclass(frozen=True)
 class Uncertainty:
-    """Of one optimum.
+    """Estimates and intervals at one optimum.
 
     Args:
         estimates: one per free parameter.
-        covariance: (n, n) in the parameters' units; not a number where not determined.
-        known: directions the data leave open.
-        combinations: what is determined of those.
-        ratio: (n,) interval from blocks over that of white residuals; not a number where there is none from blocks.
-        half: (n,) standard deviations to the ends of the intervals.
-        blocks: that gave the intervals; 0 where they were too few and colour was allowed for by lambda alone.
+        covariance: (n, n) in the parameters' units; NaN for undetermined parameters.
+        known: directions that the data do not determine, or badly.
+        combinations: combinations of undetermined parameters that are determined.
+        ratio: (n,) width of the interval over that for white residuals; NaN for undetermined parameters.
+        half: (n,) half widths of two-sided intervals, in standard deviations.
+        blocks: number of blocks that gave the intervals; 0 if they were too few and lambda was used instead.
     """
 
     estimates: tuple[Estimate, ...]
@@ -56,13 +56,13 @@ class Uncertainty:
 
 
 def uncertainty(space: ParameterSpace, point: Point) -> Uncertainty:
-    """Intervals to first order around an optimum of a sum of squares.
+    """Linearised intervals around an optimum of a sum of squares.
 
-    Parameters at a bound do not count as free for the others: their own interval reaches into the bounds from where
-    they stand.
+    Parameters at a bound count as known for the intervals of the others. Their own intervals are one-sided, from the
+    bound inwards.
 
     Args:
-        point: residuals over their levels and their slopes.
+        point: the optimum, with its residual and Jacobian.
     """
     value, slope = space.to_model(point.x), space.slope(point.x)
     at = at_bounds(space, point)
@@ -93,13 +93,13 @@ def uncertainty(space: ParameterSpace, point: Point) -> Uncertainty:
 
 
 def _quantile(freedom: float, *, one_sided: bool = False) -> float:
-    """Standard deviations to the end of an interval: Student's distribution, the normal one where that is infinite."""
+    """Half width of an interval in standard deviations: Student's t distribution; normal if `freedom` is infinite."""
     level = _SETTINGS.level if one_sided else 0.5 + _SETTINGS.level / 2
     return float(stdtrit(freedom, level) if math.isfinite(freedom) else ndtri(level))
 
 
 def at_bounds(space: ParameterSpace, point: Point) -> list[str]:
-    """ "lower", "upper" or "" per parameter."""
+    """The bound where each parameter is: "lower", "upper" or ""."""
     lower, upper = space.bounds()
     width = np.where(np.isfinite(upper - lower), upper - lower, 1.0)
     near = _AT_BOUND * np.maximum(width, 1.0)
@@ -109,7 +109,7 @@ def at_bounds(space: ParameterSpace, point: Point) -> list[str]:
 
 @dataclass(frozen=True)
 class _Covariance:
-    """Of the free parameters, (n, n) each, zero for the others; degrees of freedom (n,); blocks that gave it."""
+    """Covariances (n, n), zero for parameters that are not free; degrees of freedom (n,); number of blocks used."""
 
     matrix: Array
     white: Array
@@ -118,7 +118,7 @@ class _Covariance:
 
 
 def _covariance(slopes: Array, point: Point, free: NDArray[np.bool_]) -> _Covariance:
-    """From blocks where they are many enough; else that of white residuals, widened by their colour."""
+    """Covariance of the free parameters: from blocks if they are enough, else that of white residuals times lambda."""
     n = slopes.shape[1]
     full, white, freedom = np.zeros((n, n)), np.zeros((n, n)), np.full(n, math.inf)
     places = np.ix_(free, free)
@@ -128,7 +128,7 @@ def _covariance(slopes: Array, point: Point, free: NDArray[np.bool_]) -> _Covari
     q, triangle = np.linalg.qr(rows)
     u, sigma, vt = np.linalg.svd(triangle)
     held = sigma > EXACT * max(sigma.max(initial=0.0), np.finfo(float).tiny)
-    back = vt[held].T / sigma[held]  # from directions that the data see equally well to the parameters
+    back = vt[held].T / sigma[held]  # maps directions of information one to the parameters
     bread = back @ back.T
     excess = point.count / max(point.count - n, 1)
     white[places] = bread * excess
@@ -148,18 +148,17 @@ def _covariance(slopes: Array, point: Point, free: NDArray[np.bool_]) -> _Covari
 def _sandwich(
     rows: Array, residual: Array, back: Array, blocks: Sequence[NDArray[np.bool_]], known: Array
 ) -> tuple[Array, Array]:
-    """Covariance (n, n) by scores of blocks, their leverage made up for (CR2), and degrees of freedom (n,).
+    """Covariance (n, n) from scores of blocks, corrected for leverage (CR2), and degrees of freedom (n,).
 
-    In directions of information one, H_b and s_b are the information and the score of block b. White residuals give s_b
-    the covariance H_b - H_b^2, so that (I - H_b)^-1/2 s_b has H_b, and all of them together one. What a block alone
-    determines has no scatter, and the variance of white residuals, as what was known beforehand has. The degrees are
-    Satterthwaite's, of white residuals.
+    In directions of information one, H_b and s_b are the information and the score of block b. For white residuals, s_b
+    has the covariance H_b - H_b^2. So (I - H_b)^-1/2 s_b has the covariance H_b, and the sum over blocks is the unit
+    matrix. A direction that one block alone determines has no scatter; it gets the variance for white residuals, and so
+    do priors. The degrees of freedom are Satterthwaite's for white residuals.
 
     Args:
-        rows: (n_r, m) orthonormal slopes.
-        back: (n, m) from their directions to the parameters.
-        known: (k, m) those of the rows that were known beforehand.
-    """
+        rows: (n_r, m) orthonormal Jacobian.
+        back: (n, m) maps these directions to the parameters.
+        known: (k, m) rows of priors."""
     changes, pushes = [], []
     alone = known.T @ known
     for block in blocks:
@@ -184,21 +183,21 @@ def _sandwich(
 
 
 def _colour(point: Point, column: Array) -> float:
-    """lambda of a parameter's score (n_r,) over all series."""
+    """lambda of a parameter with Jacobian column (n_r,), pooled over all series."""
     chosen = [point.series == number for number in np.unique(point.series) if number >= 0]
     chosen = chosen or [np.ones(point.residual.size, dtype=bool)]
     return inflation([point.residual[own, None] for own in chosen], [column[own, None] for own in chosen])
 
 
 def _open(exact: Array) -> NDArray[np.bool_]:
-    """Which parameters have a part in an exact direction, (n,)."""
+    """(n,) whether each parameter is undetermined, as it has a part in an exact direction."""
     return np.asarray(
         np.any(np.abs(exact) > _SETTINGS.undetermined * np.max(np.abs(exact), axis=0, initial=0.0), axis=1)
     )
 
 
 def _interval(space: ParameterSpace, i: int, value: float, reach: float, at: str) -> tuple[float, float]:
-    """`reach` to both sides, to one from a bound; on the scale of the search, and never beyond the bounds."""
+    """Interval from half width `reach`, within the bounds: symmetric on the search's scale; one-sided from a bound."""
     lower, upper = float(space.lower[i]), float(space.upper[i])
     if not math.isfinite(reach):
         return lower, upper
@@ -214,7 +213,8 @@ def _interval(space: ParameterSpace, i: int, value: float, reach: float, at: str
 def _combinations(
     space: ParameterSpace, value: Array, known: Identifiability, covariance: Array, factor: float
 ) -> tuple[Combination, ...]:
-    """For each exact direction, every other parameter in it times the power of a first one that makes it invariant."""
+    """If exactly one direction is undetermined: determined products of each parameter in it with a power of one other.
+    None if a parameter is not positive."""
     if known.exact.shape[1] != 1 or np.any(value <= 0):
         return ()
     exponents = whole_exponents(space.keys, known.exact[:, 0])

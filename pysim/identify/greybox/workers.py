@@ -1,4 +1,4 @@
-"""Where the runs go: threads of this process, worker processes that may crash, or a cluster."""
+"""Workers that simulate the runs: threads of this process, worker processes that may crash, or a cluster."""
 
 from __future__ import annotations
 
@@ -28,14 +28,14 @@ class Job:
     """One run.
 
     Args:
-        place: of the run among those asked for.
+        place: index of the run among all runs.
         run: a run over time, or an orbit.
-        names: variables whose slopes are wanted.
-        slopes: (n_v, n_x) of those variables by the search's numbers.
-        guess: state to start an orbit's search from, or None.
-        mismatch: what of an orbit's correction is left to first order.
-        offset: whether slopes by the offset of the states are wanted.
-        take: of a run over time, is given its rows where it runs in this process; then its result has none.
+        names: variables by which the run is differentiated.
+        slopes: (n_v, n_x) derivatives of these variables by the search coordinates.
+        guess: first guess of an orbit's state, or None.
+        mismatch: largest last correction of an orbit, in amplitudes, that is made to first order only.
+        offset: whether to differentiate by the initial states too.
+        take: receives the rows of a run over time in this process; the result then has no rows.
     """
 
     place: int
@@ -50,14 +50,14 @@ class Job:
 
 @dataclass(frozen=True)
 class Lost:
-    """Stands for the result of a run whose worker died."""
+    """Result of a run whose worker died."""
 
     message: str
     outcome: Outcome = Outcome.MODEL_ERROR
 
     @property
     def record(self) -> Lost:
-        """Itself: outcome and message are all there is."""
+        """Itself, as it has the outcome and message of a record."""
         return self
 
 
@@ -66,16 +66,16 @@ Share = tuple[Model, list[Job], Esdirk]
 
 
 class Workers(Protocol):
-    """Runs jobs, in their order; a failed run is a result that says so."""
+    """Runs jobs and returns their results in the same order; a failed run is a result with its outcome."""
 
     def run(self, model: Model, jobs: Sequence[Job], solver: Esdirk) -> Sequence[Result]:
-        """Orbits, or runs with sensitivities: all jobs are of one kind, with the same names and `offset`."""
+        """Run jobs of one kind, orbits or runs over time, which have the same `names` and `offset`."""
         ...
 
 
 @dataclass(frozen=True)
 class Threads:
-    """Threads of this process, all cores where `count` is None; the FMUs of others run in processes of their own."""
+    """Threads of this process, one per core if `count` is None; FMUs of other tools run in separate processes."""
 
     count: int | None = None
 
@@ -86,16 +86,16 @@ class Threads:
 
 @dataclass(frozen=True)
 class Processes:
-    """A process per core; an FMU that crashes ends its worker, and its run is a failed one.
+    """Worker processes. If an FMU crashes, only its worker ends, and its run counts as failed.
 
     Args:
-        count: processes; all cores where None.
+        count: number of processes; one per core if None.
     """
 
     count: int | None = None
 
     def run(self, model: Model, jobs: Sequence[Job], solver: Esdirk) -> Sequence[Result]:
-        """Share the jobs out; where a worker dies, its jobs are tried again one by one to find the culprit."""
+        """Share out the jobs; if a worker dies, its jobs are repeated one by one to find the one that crashes."""
         count = self.count or os.cpu_count() or 1
         results: dict[int, Result] = {}
         again: list[int] = []
@@ -117,27 +117,27 @@ class Processes:
 
 
 def helper_processes(count: int) -> ProcessPoolExecutor:
-    """Processes that Ctrl-C ends at once and without a word; the parent says what has to be said."""
+    """A pool of processes that Ctrl-C ends at once and without a message, which is left to the parent."""
     context, silent = multiprocessing.get_context("spawn"), (signal.SIGINT, signal.SIG_DFL)
     return ProcessPoolExecutor(count, mp_context=context, initializer=signal.signal, initargs=silent)
 
 
 @dataclass(frozen=True)
 class Cluster:
-    """Whoever has `map(function, chunks)` and gives futures with `result()`, such as a Dask client.
+    """A cluster: a client with `map(function, chunks)` that returns futures with `result()`, such as a Dask client.
 
     The FMU's file has to be at the same path on every worker.
 
     Args:
         client: the client.
-        chunks: shares the jobs are cut into; two for each worker where None.
+        chunks: number of shares of the jobs; two per worker if None.
     """
 
     client: Any
     chunks: int | None = None
 
     def run(self, model: Model, jobs: Sequence[Job], solver: Esdirk) -> Sequence[Result]:
-        """Share the jobs out; a share whose worker died is a row of failed runs."""
+        """Share out the jobs; all runs of a share whose worker died count as failed."""
         chunks = _chunks(len(jobs), self.chunks or 2 * _count(self.client))
         shares = [_share(model, jobs, chunk, solver) for chunk in chunks]
         results: dict[int, Result] = {}
@@ -146,13 +146,13 @@ class Cluster:
                 results |= zip(chunk, future.result(), strict=True)
             except BadInput:
                 raise
-            except Exception as error:  # whatever a cluster raises when it loses a worker
+            except Exception as error:  # clusters differ in what they raise when they lose a worker
                 results |= dict.fromkeys(chunk, Lost(f"the cluster lost this run ({error})"))
         return [results[i] for i in range(len(jobs))]
 
 
 def run_jobs(model: Model, jobs: Sequence[Job], solver: Esdirk, workers: int | None) -> Sequence[Result]:
-    """All jobs in threads of this process."""
+    """Run all jobs in threads of this process, one per core if `workers` is None."""
     names, orbits = jobs[0].names, [job.run for job in jobs if isinstance(job.run, Periodic)]
     with _KEPT.use(model) as runs:
         if orbits:
@@ -164,9 +164,9 @@ def run_jobs(model: Model, jobs: Sequence[Job], solver: Esdirk, workers: int | N
 
 
 class _Kept:
-    """Models that stay open from pass to pass of a search, the last few; each is used by one thread at a time."""
+    """Cache of the last models, which stay open between points of a search; each is used by one thread at a time."""
 
-    _MOST = 2  # a base model and the one beside it
+    _MOST = 2  # a base model and the extended one
 
     def __init__(self) -> None:
         self._lock = threading.Lock()
@@ -175,7 +175,7 @@ class _Kept:
 
     @contextmanager
     def use(self, model: Model) -> Iterator[Runs]:
-        """The model, opened where it is not; given back in the end, and closed where something was raised."""
+        """The open model; returned to the cache in the end, or closed after an exception."""
         with self._lock:
             place = next((i for i, (kept, _, _) in enumerate(self._open) if kept == model), None)
             found = None if place is None else self._open.pop(place)
@@ -194,7 +194,7 @@ class _Kept:
             stack.close()
 
     def close(self) -> None:
-        """Close all that nobody uses."""
+        """Close all models that are not in use."""
         with self._lock:
             old, self._open = self._open, []
         for _, _, stack in old:
@@ -205,7 +205,7 @@ _KEPT = _Kept()
 
 
 def _count(client: Any) -> int:
-    """Workers of a cluster; as many as a large one has where it does not say."""
+    """Number of workers of a cluster; 32 if its client does not say."""
     try:
         return max(len(client.nthreads()), 1)
     except AttributeError:
@@ -213,7 +213,7 @@ def _count(client: Any) -> int:
 
 
 def _share(model: Model, jobs: Sequence[Job], numbers: Sequence[int], solver: Esdirk) -> Share:
-    """Some of the jobs for another process, which hands all rows back."""
+    """Some of the jobs, for another process, which returns all rows instead of reducing them."""
     return model, [replace(jobs[i], take=None) for i in numbers], solver
 
 
@@ -223,6 +223,6 @@ def _run_share(share: Share) -> list[Result]:
 
 
 def _chunks(count: int, most: int) -> list[list[int]]:
-    """Places 0 ... count - 1, dealt out so that each share has some of the slow ones."""
+    """Indices 0 ... count - 1 in at most `most` shares, dealt out in turn, as slow jobs often follow each other."""
     shares = max(1, min(count, most))
     return [list(range(i, count, shares)) for i in range(shares) if i < count]
