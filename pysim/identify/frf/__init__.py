@@ -1,4 +1,4 @@
-"""Frequency responses from measured logs of stepped sines, with what can be said of their doubt."""
+"""Frequency responses from measured logs of stepped sines, with their covariance."""
 
 from pysim.identify.frf.noise import ResidualNoise, residual_noise
 from pysim.identify.frf.responses import MeasuredResponse, measured_responses

@@ -1,4 +1,4 @@
-"""A sine of known angle, its harmonics and a mean, fitted to samples that may lack some."""
+"""Least-squares fit of a sine of known angle, its harmonics and a mean, to samples of which some may be missing."""
 
 from __future__ import annotations
 
@@ -13,21 +13,21 @@ from pysim.identify._near_orthogonal import near_orthogonal_fit
 
 Array = NDArray[np.float64]
 
-# Condition number up to which columns count as told apart; 1.4 where no sample is lost. At four, lost samples make the
-# variance of the sine up to four times that of as many even ones.
+# Largest condition number at which columns count as distinguishable; 1.4 if no sample is missing. At four, missing
+# samples make the variance of the sine up to four times that of as many evenly spaced samples.
 _TOLD_APART = 4.0
-_NEXT = 5  # harmonics next to the sine, by which noise is judged where nothing else lies between them
+_NEXT = 5  # number of harmonics from which noise is estimated, if there are no spectral lines between them
 
 
 @dataclass(frozen=True)
 class HarmonicFit:
-    """Coefficients of columns, and what noise does to them.
+    """Coefficients of columns, their covariance, and the residual.
 
     Args:
-        columns: (n, n_c): sin, cos, sin 2, cos 2, ... of the angle, a constant, and what else was fitted.
+        columns: (n, n_c): sin, cos, sin 2, cos 2, ... of the angle, a constant, and further fitted columns.
         coefficients: (n_c,).
-        inverse: (n_c, n_c) of the normal matrix: their covariance by white noise of unit variance.
-        left_over: (n,).
+        inverse: (n_c, n_c) inverse of the normal matrix: covariance of the coefficients for unit white noise.
+        left_over: (n,) residual.
     """
 
     columns: Array
@@ -36,10 +36,10 @@ class HarmonicFit:
     left_over: Array
 
     def level_of_harmonics(self) -> float:
-        """Standard deviation of white noise that would be as large as most of the harmonics next to the sine are.
+        """Standard deviation of white noise that explains the median of the first harmonics; 0 without harmonics.
 
-        Noise with a memory has its slow part there, and none in what a single period leaves over. The median hardly
-        minds one or two that the system itself makes. Widened for how few they are. 0 for a sine without harmonics.
+        The harmonics contain the slow part of coloured noise, which the residual of a single period does not. The
+        median is robust against one or two harmonics of the plant itself. The result is widened for their small number.
         """
         sines = np.arange(2, self.columns.shape[1] - 1, 2)[:_NEXT]
         if sines.size == 0:
@@ -50,18 +50,18 @@ class HarmonicFit:
 
     @property
     def freedom(self) -> int:
-        """Samples less coefficients."""
+        """Number of samples less that of coefficients."""
         return self.columns.shape[0] - self.columns.shape[1]
 
 
 def waves(angle: Array, count: int) -> Array:
-    """sin and cos of 1 .. count times the angle, and a constant: (n, 2 count + 1)."""
+    """Columns sin and cos of 1 .. count times the angle (n,), and a constant: (n, 2 count + 1)."""
     columns = [function(k * angle) for k in range(1, count + 1) for function in (np.sin, np.cos)]
     return np.column_stack([*columns, np.ones_like(angle)])
 
 
 def told_apart(angle: Array, count: int) -> int:
-    """How many of the sine and its harmonics samples at these angles (n,) tell apart, at most `count`; 0 for none."""
+    """Number of sine and harmonics, at most `count`, that samples at these angles (n,) can distinguish; 0 for none."""
     columns = waves(angle, count)
     square = columns.T @ columns
     for few in range(count, 0, -1):
@@ -76,9 +76,9 @@ def harmonic_fit(angle: Array, y: Array, count: int, *, lost: bool, drifting: bo
 
     Args:
         angle, y: (n,) samples over whole periods.
-        count: of the sine and its harmonics.
-        lost: whether samples are missing among them; else the columns are taken for orthogonal.
-        drifting: whether two columns follow, sin and cos times a line from -1 to 1.
+        count: number of sine and harmonics.
+        lost: whether samples are missing; if not, the columns are taken as orthogonal.
+        drifting: whether to append two columns, sin and cos times a line from -1 to 1.
     """
     columns, squares = waves(angle, count), [0.5] * (2 * count) + [1.0]
     if drifting:

@@ -1,4 +1,4 @@
-"""How noisy a fit is, judged by what it leaves over: its size, and whether it has a memory."""
+"""Noise of a fit, from the size and the colour of its residual."""
 
 from __future__ import annotations
 
@@ -11,22 +11,22 @@ from scipy.special import chdtrc
 Array = NDArray[np.float64]
 
 DECLARED, RESIDUALS, COLOURED = "declared noise", "white residuals", "residuals with a memory"
-# Below this probability a test is taken to have failed; one to three white residuals in a hundred are called coloured.
+# A test fails below this p-value; one to three white residuals in a hundred are called coloured.
 _UNLIKELY = 0.01
 _MOST_LAGS = 20
-_NOTHING = 1e-8  # of the largest variance: a combination of lags that the fit has left no freedom
+_NOTHING = 1e-8  # share of the largest variance below which a combination of lags has no variance, due to the fit
 
 
 @dataclass(frozen=True)
 class ResidualNoise:
-    """Standard deviation that white noise would need to disturb a sine, or a mean, as much as this noise does.
+    """Standard deviation of white noise that disturbs a fitted sine, or mean, as much as the actual noise does.
 
     Args:
         at_frequency: for the fitted sine, in the signal's unit.
         at_zero: for the mean, in the signal's unit.
-        deviation: of the residuals themselves, in the signal's unit.
+        deviation: standard deviation of the residuals, in the signal's unit.
         basis: DECLARED, RESIDUALS or COLOURED.
-        whiteness: probability that what a fit leaves of white noise looks as coloured as this.
+        whiteness: p-value of the test for white noise.
         at_harmonics: (n_h,) for sines of 2, 3, ... times the frequency, in the signal's unit.
     """
 
@@ -38,7 +38,7 @@ class ResidualNoise:
     at_harmonics: tuple[float, ...] = ()
 
     def at_least(self, level: float) -> ResidualNoise:
-        """The same, but no smaller for sine and mean than white noise of that standard deviation."""
+        """The noise with `at_frequency` and `at_zero` raised to at least `level`."""
         return replace(self, at_frequency=max(self.at_frequency, level), at_zero=max(self.at_zero, level))
 
 
@@ -51,19 +51,19 @@ def residual_noise(
     declared: float | None = None,
     harmonics: int = 0,
 ) -> ResidualNoise:
-    """Judge the residuals of a fit to evenly spaced samples.
+    """Estimate the noise from the residual of a fit to evenly spaced samples.
 
-    Declared noise counts where the residuals are white and no larger than it explains. Else the residuals decide; where
-    they have a memory, their spectral density at the frequency counts, from an autoregressive model whose order is
-    chosen by Akaike's criterion, and never less than if they were white.
+    The declared noise is used if the residual is white and not significantly larger. Otherwise the residual gives the
+    noise. If it is coloured, its spectral density at the frequency is used, from an autoregressive model with the order
+    of Akaike's criterion, but never less than for white noise.
 
     Args:
-        residual: (n,), what a least-squares fit has left over.
-        regressors: (n, p) of that fit, n well above p: taking p waves out of white noise gives what is left a memory.
-        frequency: Hz, of the sine in question.
+        residual: (n,) residual of a least-squares fit.
+        regressors: (n, p) columns of that fit, which colour the residual of white noise; n is well above p.
+        frequency: frequency of the sine in Hz.
         interval: s between samples.
-        declared: standard deviation of the noise that the data set states, in the signal's unit.
-        harmonics: how many of the sine are judged as well.
+        declared: standard deviation of the noise that the data set specifies, in the signal's unit.
+        harmonics: number of harmonics for which the noise is estimated too.
     Source: Priestley, Spectral Analysis and Time Series, Section 7.8; for the test see `_whiteness`.
     """
     n, freedom = residual.size, residual.size - regressors.shape[1]
@@ -78,10 +78,10 @@ def residual_noise(
         flat = variance**0.5
         return ResidualNoise(flat, flat, flat, RESIDUALS, whiteness, (flat,) * harmonics)
     filter_, share = _autoregression(correlation, n)
-    scale = variance * share  # variance of what drives the filter
+    scale = variance * share  # variance of the white noise that drives the filter
     floor = max(variance, 0.0 if declared is None else declared**2)
     periods = n * frequency * interval
-    # Of P lines from one harmonic to the next the fit has taken one, with its noise.
+    # Of the P spectral lines per harmonic, the fit has removed one, with its noise.
     taken = periods / (periods - 1) if periods > 1.5 else 1.0
     density = [taken * scale * _gain(filter_, k * frequency * interval) ** 2 for k in range(harmonics + 2)]
     at = [max(d, floor) ** 0.5 for d in density]
@@ -89,7 +89,7 @@ def residual_noise(
 
 
 def _autocorrelation(x: Array, lags: int) -> Array:
-    """At lags 0 to `lags`, (lags + 1,); zero memory for a residual that is zero."""
+    """Autocorrelation at lags 0 to `lags`, (lags + 1,); that of white noise if x (n,) is zero."""
     total = float(x @ x)
     if total == 0.0:
         return np.eye(1, lags + 1)[0]
@@ -97,11 +97,11 @@ def _autocorrelation(x: Array, lags: int) -> Array:
 
 
 def _whiteness(correlation: Array, regressors: Array) -> float:
-    """Probability of autocorrelations that are further from what the fit leaves of white noise.
+    """p-value of a test that the residual of a fit comes from white noise, by its autocorrelations.
 
-    What is left is e = M z, M = I - Q Q', and the correlation at lag k is e'T_k e / e'e, T_k half the sum of a shift by
-    k to either side. Of Gaussian noise, mean and covariance of such ratios follow from traces of M T_i M T_j. Without
-    regressors this is the test of Ljung and Box, Biometrika 65 (1978).
+    The residual is e = M z with M = I - Q Q'. The correlation at lag k is e'T_k e / e'e, where T_k is half the sum of
+    the shifts by k to both sides. For Gaussian noise, mean and covariance of these ratios follow from traces of
+    M T_i M T_j. Without regressors this is the test of Ljung and Box, Biometrika 65 (1978).
 
     Args:
         correlation: (lags + 1,).
@@ -125,12 +125,12 @@ def _whiteness(correlation: Array, regressors: Array) -> float:
 
 
 def _shifted_products(q: Array, lags: int) -> Array:
-    """Traces of Q' T_i T_j Q, (lags, lags), from the products of rows (n, p) that lie 0 to 2 lags apart."""
+    """Traces of Q' T_i T_j Q, (lags, lags), from products of rows of Q (n, p) at distances 0 to 2 lags."""
     n = q.shape[0]
     sums = [np.append(0.0, np.cumsum(np.einsum("np,np->n", q[: n - d], q[d:]))) for d in range(2 * lags + 1)]
     found = np.empty((lags, lags))
     for j in range(1, lags + 1):
-        for i in range(1, j + 1):  # each half of T_i meets each of T_j: to the same side, then to opposite ones
+        for i in range(1, j + 1):  # products of the shifts in T_i and T_j: to the same side, then to opposite sides
             near, far = sums[j - i], sums[i + j]
             same = near[n - j] + near[n - j + i] - near[i]
             found[i - 1, j - 1] = found[j - 1, i - 1] = 0.25 * (same + 2 * far[-1])
@@ -138,9 +138,9 @@ def _shifted_products(q: Array, lags: int) -> Array:
 
 
 def _autoregression(correlation: Array, n: int) -> tuple[Array, float]:
-    """1, a_1 ... a_p of e_t + a_1 e_(t-1) + ... = white noise, by Levinson's recursion; p by Akaike's criterion.
+    """1, a_1 ... a_p of e_t + a_1 e_(t-1) + ... = white noise, and the variance of this noise over that of e.
 
-    The second number is the variance of that white noise, as a share of the variance of e.
+    Levinson's recursion; the order p minimises Akaike's criterion.
     """
     a, power = np.ones(1), 1.0
     best, driven, least = a, power, 0.0
@@ -158,5 +158,5 @@ def _autoregression(correlation: Array, n: int) -> tuple[Array, float]:
 
 
 def _gain(filter_: Array, turns: float) -> float:
-    """Of the noise model at a frequency in turns per sample."""
+    """Gain of the autoregressive model at a frequency in turns per sample."""
     return float(1 / abs(np.sum(filter_ * np.exp(-2j * np.pi * turns * np.arange(filter_.size)))))

@@ -1,4 +1,4 @@
-"""All stepped sines of a data set, as a frequency response per offset and amplitude."""
+"""Frequency responses of all stepped sines of a data set, one for each offset and amplitude."""
 
 from __future__ import annotations
 
@@ -20,11 +20,10 @@ class MeasuredResponse:
     """A frequency response and the logs behind it.
 
     Args:
-        response: its covariance is scaled to the test's nominal amplitude, so that the standard deviation of a gain is
-            that of the amplitude over `test.amplitude`.
-        points: (n_f,) one per frequency.
-        input_unit, output_unit: of the signals.
-        use: of the logs.
+        response: its covariance is that of amplitudes: standard deviations of gains times `test.amplitude`.
+        points: one per frequency.
+        input_unit, output_unit: units of the signals.
+        use: use of the logs.
     """
 
     response: FrequencyResponse
@@ -35,7 +34,7 @@ class MeasuredResponse:
 
     @property
     def notes(self) -> tuple[Note, ...]:
-        """Those of all points, each with its frequency, and harmonics where there are any."""
+        """The notes of all points with their frequencies, and one on significant harmonics, if there are any."""
         notes = [Note(one.code, {**one.values, "at": p.frequency}) for p in self.points for one in p.notes]
         distorted = [p for p in self.points if p.distorted]
         if distorted:
@@ -47,7 +46,7 @@ class MeasuredResponse:
 
 
 class _Test(NamedTuple):
-    """What logs of one response have in common."""
+    """What the logs of one response have in common."""
 
     offset: float
     amplitude: float
@@ -64,16 +63,16 @@ def measured_responses(
 ) -> tuple[MeasuredResponse, ...]:
     """Analyse every stepped sine.
 
-    Records of one nominal offset, amplitude and use form a response; where a frequency was tested again, the second
-    logs form a second one.
+    Records with the same nominal offset, amplitude and use form one response. If a frequency was tested again, the
+    repeated logs form a second response.
 
     Args:
-        output: the responding signal; may be left out where the logs hold a single one.
+        output: the output signal; may be left out if the logs have only one.
         window: which periods of each log are fitted.
     Returns:
-        in the order in which the groups appear in the data set; frequencies increase.
+        responses in the order of the data set; their frequencies increase.
     Raises:
-        BadInput: no such logs, no input or output to be distinguished, or a log that `sine_point` refuses.
+        BadInput: no such logs, no unique input or output, or a log that `sine_point` rejects.
     Source: thesis Section 2.3.
     """
     groups: dict[tuple[_Test, int], dict[float, SinePoint]] = {}
@@ -96,7 +95,7 @@ def measured_responses(
 
 
 def _nominal(told: float | None, fitted: float) -> float:
-    """What the record tells, else the fit to three digits."""
+    """The value specified in the record, or else the fitted one, rounded to three digits."""
     return float(f"{fitted:.3g}") if told is None else told
 
 

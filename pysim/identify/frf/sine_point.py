@@ -1,4 +1,4 @@
-"""One log of a stepped sine: gain and phase against the command as it was logged, their doubt, and the harmonics."""
+"""One log of a stepped sine: gain and phase relative to the logged command, their covariance, and the harmonics."""
 
 from __future__ import annotations
 
@@ -18,17 +18,17 @@ from pysim.types.note import Note, NoteCode
 
 Array = NDArray[np.float64]
 
-_HARMONICS = 10  # at most; those up to just below half the sampling rate
-_UNLIKELY = 1e-3  # probability below which halves of a log are said to differ, and harmonics to be there
+_HARMONICS = 10  # largest number of harmonics; they are also below half the sampling rate
+_UNLIKELY = 1e-3  # p-value below which a drift through the log, or harmonics, are significant
 
 
 @dataclass(frozen=True)
 class Window:
-    """Which part of a log is fitted: the last whole periods, but for what is left for transients to die.
+    """Which part of a log is fitted: the last whole periods after the transients.
 
     Args:
-        settle_periods: periods left out after the sine starts, or the log does, at least.
-        settle_time: s left out there, at least.
+        settle_periods: smallest number of periods that are left out at the start of the sine, or of the log.
+        settle_time: shortest time in s that is left out there.
     Raises:
         BadInput: a number that is negative or not finite.
     Source: the defaults are those of `SteppedSine`, whose settling times follow from the pump's transients.
@@ -45,23 +45,23 @@ class Window:
 
 @dataclass(frozen=True)
 class SinePoint:
-    """What one log says.
+    """The response at one frequency, from one log.
 
     Args:
-        source: the record's.
+        source: source of the record.
         frequency: Hz.
-        command: the wave as it was logged.
-        gain: output amplitude by command amplitude, output unit per input unit.
-        phase: rad in (-pi, pi], of the output against the command.
-        mean: of the output, in its unit.
+        command: the sine of the logged command.
+        gain: output amplitude over command amplitude, output unit per input unit.
+        phase: rad in (-pi, pi], of the output relative to the command.
+        mean: mean of the output, in its unit.
         covariance: (3, 3) of gain, phase and mean.
-        harmonics: (n_h,) amplitudes of the output at 2, 3, ... times the frequency, by that at the frequency.
-        harmonics_noise: standard deviation that noise alone would give them; where the noise has a memory, the root
-            of the mean square over them.
-        distorted: whether there are harmonics beyond what noise gives: the response is not linear.
-        noise: of the output.
+        harmonics: (n_h,) amplitudes of the output at 2, 3, ... times the frequency, over that at the frequency.
+        harmonics_noise: standard deviation of these that noise alone would cause; for coloured noise, the root mean
+            square over all harmonics.
+        distorted: whether the harmonics are significant, so that the response is not linear.
+        noise: noise of the output.
         periods: whole periods that were fitted.
-        notes: what a reader must know before trusting the numbers.
+        notes: reasons why the numbers may be wrong.
     """
 
     source: str
@@ -87,20 +87,20 @@ class SinePoint:
 def sine_point(
     record: MeasuredRecord, input_: str, output: str, *, window: Window | None = None, noise: float | None = None
 ) -> SinePoint:
-    """Fit the command's wave and, over whole periods, the output's sine with its harmonics.
+    """Fit the command's sine and, over whole periods, the output's sine with its harmonics.
 
-    Harmonics are fitted beside the sine, so that what is left over is noise; over whole periods that does not change
+    Harmonics are fitted together with the sine, so that the residual is noise; over whole periods they do not change
     the sine itself.
 
     Args:
         record: a stepped sine, with its frequency; a log over time.
         input_, output: names of the columns.
         window: which periods are fitted.
-        noise: standard deviation of the output's noise, in its unit, where it is known.
+        noise: standard deviation of the output's noise, in its unit; None if not specified.
     Raises:
         BadInput: a command that is not the record's sine, an output that does not move, or less than one whole period.
-    Source: thesis Eq. 2.4-2.13. Differs: amplitude and phase are referred to the command's fit, not to what it was
-    meant to be; harmonics are part of the fit.
+    Source: thesis Eq. 2.4-2.13. Differs: amplitude and phase are relative to the fitted command, not the nominal one;
+    harmonics are part of the fit.
     """
     command = logged_wave(record, input_)
     assert isinstance(record.data, Record)  # logged_wave has refused anything else
@@ -135,7 +135,7 @@ def sine_point(
     deviation = np.repeat(noisy if count > 1 else [judged.at_frequency], 2)  # of sine and cosine
     unit = np.diag(fit.inverse)[2 if count > 1 else 0 : -1]
     spread = math.sqrt(float(np.mean(deviation**2 * unit)))
-    # Noise with a memory is told there by the lines between the harmonics alone, two numbers each.
+    # Coloured noise at the harmonics is estimated only from the spectral lines between them, two numbers each.
     between = 2 * (count - 1) * (part.periods - 1)
     known = between if judged.basis == COLOURED and between else fit.freedom
     distorted = count > 1 and _by_chance(fit, slice(2, -1), deviation, judged.basis, known) < _UNLIKELY
@@ -162,14 +162,14 @@ def sine_point(
 
 @dataclass(frozen=True)
 class _Part:
-    """What of a log is fitted.
+    """The part of a log that is fitted.
 
     Args:
         inside: samples of the last whole periods.
-        periods: how many.
+        periods: number of periods.
         step: s between samples.
-        holes: (from, to) in s, where samples are lost.
-        notes: what speaks against it.
+        holes: (from, to) in s, where samples are missing.
+        notes: notes on the choice of the part.
     """
 
     inside: slice
@@ -203,7 +203,7 @@ def _fitted_part(record: MeasuredRecord, command: LoggedWave, window: Window) ->
 
 
 def _harmonic_count(t: Array, frequency: float, part: _Part) -> int:
-    """The sine itself and its harmonics, as many as sampling and number of samples allow; 0 where not even it."""
+    """Number of sine and harmonics that sampling rate and number of samples allow; 0 if not even the sine."""
     if t.size < 2:
         return 0
     highest = 0.49 / part.step if part.holes else 0.49 * (t.size - 1) / float(t[-1] - t[0])
@@ -213,9 +213,9 @@ def _harmonic_count(t: Array, frequency: float, part: _Part) -> int:
 def _told_apart(
     source: str, angle: Array, count: int, frequency: float, holes: tuple[tuple[float, float], ...]
 ) -> tuple[int, list[Note]]:
-    """How many of the sine and its harmonics are fitted where samples are lost, and what must be said of that.
+    """Number of sine and harmonics that are fitted if samples are missing, and notes on harmonics that are not.
 
-    What is fitted though the samples do not tell it apart makes the sine itself a matter of chance.
+    Harmonics that the samples cannot distinguish would make the fitted sine very uncertain.
     """
     few = told_apart(angle, count)
     begin, end = max(holes, key=lambda hole: hole[1] - hole[0])
@@ -233,12 +233,12 @@ def _told_apart(
 
 
 def _by_chance(fit: HarmonicFit, part: slice, deviation: Array, basis: str, freedom: int) -> float:
-    """Probability of coefficients as large as these, or larger, by noise alone.
+    """p-value of coefficients: the probability that noise alone makes them as large as they are, or larger.
 
     Args:
-        part: which coefficients, n_c of them.
-        deviation: (n_c,) of white noise that would disturb each of them as much.
-        basis: of the noise; unless it was declared it is an estimate, from what the fit leaves over.
+        part: the n_c coefficients.
+        deviation: (n_c,) standard deviations of white noise that disturbs each coefficient as much.
+        basis: basis of the noise; unless DECLARED, it is estimated from the residual, and this is an F test.
         freedom: degrees of freedom of that estimate.
     """
     chosen = fit.coefficients[part]
@@ -252,7 +252,7 @@ def _by_chance(fit: HarmonicFit, part: slice, deviation: Array, basis: str, free
 
 
 def _covariance(command: LoggedWave, fit: HarmonicFit, noise: ResidualNoise) -> Array:
-    """Of gain, phase and mean, to first order; noise of output and logged command."""
+    """Covariance of gain, phase and mean, to first order, from the noise of output and logged command."""
     sine, cosine = fit.coefficients[:2]
     amplitude = float(np.hypot(sine, cosine))
     scale = np.array([noise.at_frequency, noise.at_frequency, noise.at_zero])
@@ -265,7 +265,7 @@ def _covariance(command: LoggedWave, fit: HarmonicFit, noise: ResidualNoise) -> 
 
 
 def _unsteady(drifting: HarmonicFit, y: Array, frequency: float, interval: float, declared: float | None) -> list[Note]:
-    """Whether amplitude or phase drift through the fitted part by more than noise."""
+    """A note if amplitude or phase drift significantly through the fitted part."""
     noise = residual_noise(drifting.left_over, drifting.columns, frequency, interval, declared=declared)
     change = 2 * float(np.hypot(*drifting.coefficients[-2:]))
     deviation = np.full(2, noise.at_frequency)
