@@ -1,4 +1,4 @@
-"""Logs beside what a model answers to their inputs: signs, units and columns that cannot be right."""
+"""Comparison of logs with a model's simulation: wrong signs, units and columns."""
 
 from __future__ import annotations
 
@@ -16,28 +16,28 @@ from pysim.types import UNITS, Dataset, MeasuredSignal, Model, Record, conversio
 
 Array = NDArray[np.float64]
 
-_FOLLOWS = 0.7  # correlation, from which on a signal follows the model's answer or its negative
-_NEAR = 1.5  # times such a factor, or a part of it: a wrong gain of the model may be so large
-_FACTORS = (10.0, 60.0, 1000.0)  # of slips between units; per quantity also these
+_FOLLOWS = 0.7  # absolute correlation above which a signal follows the simulated one, or its negative
+_NEAR = 1.5  # ratio to a factor below, up to which a gain counts as that factor; the model's own gain may be wrong
+_FACTORS = (10.0, 60.0, 1000.0)  # usual factors between units that are mixed up; by unit these instead
 _OF_UNIT: Mapping[str, tuple[float, ...]] = {
     "rad": (180 / math.pi,),
     "rad/s": (180 / math.pi, 30 / math.pi),
     "Pa": (1e5, 10.0, 1000.0),
     "m3/s": (6e4, 60.0, 1000.0),
 }
-_OFFSET = 0.02  # of a signal's range: a smaller offset of its regression is none
+_OFFSET = 0.02  # share of a signal's range below which an offset of its regression is set to zero
 
 
 @dataclass(frozen=True)
 class _Pair:
-    """A signal and the model's answers, all logs in a row and each without its mean.
+    """A measured signal and the simulated one, of all logs in a row, each log without its mean.
 
     Args:
-        signal: as it was measured.
-        source: of the first log.
-        unit: of the model's answer.
+        signal: the signal of the data set.
+        source: source of the first log.
+        unit: unit of the simulated signal.
         measured: (n,).
-        own: (n,) the model's answer for this signal.
+        own: (n,) simulated.
         levels: means of both in the first log.
     """
 
@@ -50,15 +50,15 @@ class _Pair:
 
     @property
     def gain(self) -> float:
-        """Measured per answer, by least squares."""
+        """Measured over simulated signal, by least squares."""
         return float(self.measured @ self.own / (self.own @ self.own))
 
 
 def against_model(dataset: Dataset, answers: Mapping[str, Record]) -> Iterator[Finding]:
-    """Signals that go against the model's answer, or are a usual factor from it, or belong to another name.
+    """Findings of signals with a wrong sign, a wrong unit, or swapped names.
 
     Args:
-        answers: source of a log -> what the model answers to it, its columns named as signals or their variables.
+        answers: source of a log -> simulated log, with columns named like signals or their variables.
     """
     pairs = [pair for s in dataset.signals if s.role == "output" and (pair := _pair(dataset, answers, s))]
     swapped = set()
@@ -75,10 +75,10 @@ def against_model(dataset: Dataset, answers: Mapping[str, Record]) -> Iterator[F
 
 
 def names_beside(dataset: Dataset, model: Model, known: Collection[str] = ()) -> Iterator[Finding]:
-    """Signals that the model does not have, and its inputs that no signal drives.
+    """Findings of signals that the model does not have, and of its inputs without a signal.
 
     Args:
-        known: inputs that have a value of their own.
+        known: inputs that are set to a constant value.
     """
     logs = [record for record in dataset.logs() if isinstance(record.data, Record)]
     if not logs:
@@ -98,7 +98,7 @@ def names_beside(dataset: Dataset, model: Model, known: Collection[str] = ()) ->
 
 
 def _pair(dataset: Dataset, answers: Mapping[str, Record], signal: MeasuredSignal) -> _Pair | None:
-    """None where the model does not give that signal, or one of them does not move."""
+    """The pair of one signal; None if it was not simulated, or if the measured or simulated signal is constant."""
     measured, own, levels, first, unit = [], [], None, "", ""
     for record in dataset.logs():
         log, answer = record.data, answers.get(record.source)
@@ -125,7 +125,7 @@ def _correlation(one: Array, other: Array) -> float:
 
 
 def _swapped(one: _Pair, other: _Pair) -> float | None:
-    """The weaker of both crossed correlations, where they are far stronger than the straight ones."""
+    """The smaller correlation with the other's simulated signal, if both far exceed those with their own; else None."""
     if one.signal.unit != other.signal.unit or one.own.size != other.own.size:
         return None
     crossed = abs(_correlation(one.measured, other.own)), abs(_correlation(other.measured, one.own))
@@ -156,7 +156,7 @@ def _of_signal(pair: _Pair) -> Iterator[Finding]:
 
 
 def _calibrated(pair: _Pair) -> Finding:
-    """A raw sensor value: the line that turns it into the model's quantity, by regression on the model's answer."""
+    """Finding of a raw sensor value, with factor and offset to the model's quantity by regression."""
     signal = pair.signal
     factor = float(f"{1 / pair.gain:.4g}")
     offset = pair.levels[1] - factor * pair.levels[0]

@@ -1,4 +1,4 @@
-"""Look at every log of a data set."""
+"""Check of every log of a data set."""
 
 from __future__ import annotations
 
@@ -19,32 +19,32 @@ from pysim.io.prepare import DropOutliers, Exclude, FillGaps, Resample, outliers
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Model, Record
 from pysim.types.record_kind import CHIRP, KINDS
 
-_PERIODS = 2.0  # whole ones that a sine fit needs after the transients are cut off
-_DRIFT = 0.02  # periods that command and told frequency may come apart over a log
-_OFF = 0.01  # of the told amplitude: how far offset and amplitude of the command may be from what was told
-_IMPURE = 0.02  # of the sine: what may be left over of the command
-_JITTER = 0.05  # of the sampling interval
-_HARMONIC = 3  # a symmetric nonlinearity answers there
-_FOLDED = 0.01  # of a signal's variance close to half the sampling rate
-_SLOW = 1.0  # Hz: no faster does a bench log, unless its times are no seconds
+_PERIODS = 2.0  # whole periods that a sine fit needs after the transients are cut off
+_DRIFT = 0.02  # periods by which command and specified frequency may differ over a log
+_OFF = 0.01  # share of the specified amplitude by which offset and amplitude of the command may be wrong
+_IMPURE = 0.02  # largest residual of the command's sine fit, over the root mean square of the sine
+_JITTER = 0.05  # largest jitter, as a share of the sampling interval
+_HARMONIC = 3  # a symmetric nonlinearity causes this harmonic
+_FOLDED = 0.01  # largest share of a signal's variance close to half the sampling rate
+_SLOW = 1.0  # Hz: a slower log probably has its times in another unit than s
 _ROUNDING = 1e-6
-_SHORT = 20  # samples: of fewer no response can be told
-_CUTS = 3  # stretches that are cut out of a log one by one; where more are clipped, it is left out
+_SHORT = 20  # samples: fewer do not show a response
+_CUTS = 3  # largest number of clipped stretches that are cut out one by one; with more, the whole log is excluded
 
 
 @dataclass(frozen=True)
 class RecordCheck:
-    """One record.
+    """The check of one record.
 
     Args:
         source, kind, use: as in `MeasuredRecord`.
-        signals: what was logged, or input and output of a table.
-        rows: samples, or frequencies of a table.
-        clock: of a log; None for a table.
-        offset, amplitude, frequency: as stated.
-        command: input that these three speak of; empty where none is stated.
-        unit: of offset and amplitude; empty where no input is stated.
-        findings: what should be looked at.
+        signals: logged signals, or input and output of a table.
+        rows: number of samples, or of frequencies of a table.
+        clock: time base of a log; None for a table.
+        offset, amplitude, frequency: as specified.
+        command: input that has these three; empty if none is specified.
+        unit: unit of offset and amplitude; empty if no input is specified.
+        findings: possible errors in the record.
     """
 
     source: str
@@ -63,7 +63,7 @@ class RecordCheck:
 
 @dataclass(frozen=True)
 class DataCheck:
-    """A data set and what was found; `records` in its order, and what a model's answers show of its signals."""
+    """A data set and its checks: `records` in its order, and findings from the comparison with a model."""
 
     dataset: Dataset
     records: tuple[RecordCheck, ...]
@@ -71,7 +71,7 @@ class DataCheck:
 
     @property
     def findings(self) -> tuple[Finding, ...]:
-        """Of all records, and beside the model."""
+        """All findings: those from the model first, then those of the records."""
         return (*self.beside_model, *(found for record in self.records for found in record.findings))
 
 
@@ -81,17 +81,17 @@ def check_dataset(
     model: Model | None = None,
     known: Collection[str] = (),
 ) -> DataCheck:
-    """What a data set holds, with findings that are no errors, and the steps that cure them.
+    """Check a data set; findings do not raise, and have the steps of preparation that correct them.
 
-    Looked for: empty cells, gaps and uneven sampling; single samples far off; a command that differs from what the
-    record says, in frequency, offset, amplitude or shape; fewer than two periods; harmonics beyond half the sampling
-    rate, or much power close to it; signals that stand at a limit; with a model's answers also signs, units and columns
-    that cannot be right; with the model itself, names that it does not have, and inputs that nothing drives.
+    Found are: empty cells, gaps and uneven sampling; outliers; a command whose frequency, offset, amplitude or shape is
+    not as specified; fewer than two periods; harmonics beyond half the sampling rate, or much power close to it;
+    signals clipped at a limit; with simulated logs also wrong signs, units and columns; with a model also signals that
+    it does not have, and inputs without a signal.
 
     Args:
-        answers: source of a log -> what a model answers to it, its columns named as signals or their variables.
-        model: that the signals are of.
-        known: inputs of the model that have a value of their own.
+        answers: source of a log -> simulated log, with columns named like signals or their variables.
+        model: model of the plant.
+        known: inputs of the model that are set to a constant value.
     """
     limits = {signal.name: _extremes(dataset, signal.name) for signal in dataset.signals}
     fill = fill_of(dataset)
@@ -183,7 +183,7 @@ def _of_log(
 def _of_output(
     dataset: Dataset, record: MeasuredRecord, log: Record, name: str, inside: slice, ends: tuple[float, float]
 ) -> Iterator[Finding]:
-    """Samples that stand at the end of the sensor's range, and single ones far off."""
+    """Findings of clipped samples and outliers in one output."""
     own, time = short_name(dataset, record), log.time[inside]
     flat = plateaus(log[name][inside], *ends)
     if flat:
@@ -208,7 +208,7 @@ def _of_output(
 
 
 def _wave_inside(record: MeasuredRecord, log: Record) -> slice:
-    """The samples of a sine or chirp behind its lead-in and before its ramp back; all where that is not known."""
+    """Samples of a sine or chirp, without lead-in and ramp back; all samples if no wave can be fitted."""
     try:
         wave = logged_wave(replace(record, data=log), record.command)
     except BadInput:
@@ -220,11 +220,11 @@ def _wave_inside(record: MeasuredRecord, log: Record) -> slice:
 def _of_sine(
     record: MeasuredRecord, log: Record, inside: slice, base: Clock, command: MeasuredSignal
 ) -> Iterator[Finding]:
-    """A stepped sine against what the record says of it."""
+    """Findings where the command of a stepped sine differs from the record's specification."""
     source, name = record.source, command.name
     told, time, values = float(record.frequency or 0.0), log.time[inside], log[name][inside]
     duration = float(time[-1] - time[0])
-    periods = told * (duration + 1 / base.rate)  # the last sample stands for an interval too
+    periods = told * (duration + 1 / base.rate)  # the last sample counts as an interval too
     if periods < _PERIODS - _ROUNDING:
         yield finding(FindingCode.FEW_PERIODS, source, periods=periods, frequency=told)
     if _HARMONIC * told > 0.5 * base.rate:
@@ -242,7 +242,7 @@ def _of_sine(
 
 
 def _of_level(record: MeasuredRecord, command: MeasuredSignal, offset: float, amplitude: float) -> Iterator[Finding]:
-    """Offset and amplitude that were found against those that were stated."""
+    """Findings where offset or amplitude differ from the specified ones."""
     for what, wanted, got in (("offset", record.offset, offset), ("amplitude", record.amplitude, amplitude)):
         if wanted is not None and abs(got - wanted) > _OFF * float(record.amplitude or abs(wanted) or 1.0):
             yield finding(

@@ -1,4 +1,4 @@
-"""Signals that stand at the limit of their sensor."""
+"""Detection of signals that are clipped at the limit of their sensor."""
 
 from __future__ import annotations
 
@@ -7,23 +7,23 @@ from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
-_LEAST = 4  # samples in a row at the very same extreme value
-_BESIDE = 6  # runs to either side that tell how lively a signal is
-_EACH = 1.5  # samples: shorter runs, in the mean, are those of a noisy signal
-_JUMP = 1.5  # quantisation steps: a signal that comes to rest arrives by single ones
+_LEAST = 4  # smallest number of equal extreme samples in a row
+_BESIDE = 6  # number of neighbouring runs on each side that show how noisy a signal is
+_EACH = 1.5  # samples: a signal with a smaller mean length of runs is noisy
+_JUMP = 1.5  # quantisation steps: a signal that comes to rest changes by single steps
 
 
 def clipped(values: Array, low: float, high: float) -> int:
-    """How many samples (n_t,) stand on plateaus at either extreme value of the signal, see `plateaus`."""
+    """Number of samples of a signal (n_t,) on plateaus at either extreme value, see `plateaus`."""
     return sum(stop - first for first, stop in plateaus(values, low, high))
 
 
 def plateaus(values: Array, low: float, high: float) -> tuple[tuple[int, int], ...]:
     """Samples (first, stop) of plateaus at either extreme value of the signal.
 
-    A plateau is a run of equal samples at `low` or `high` that is cut out of a signal on the move: it is entered or
-    left by more than a quantisation step, or the noise beside it lets hardly two neighbours be equal. A signal that
-    settles at its largest value has no such plateau, and neither has the flat top of a slow, finely sampled sine.
+    A plateau is a run of equal samples at `low` or `high` of a moving signal: the signal enters or leaves the run by
+    more than a quantisation step, or is so noisy that other neighbours are hardly ever equal. A signal that settles at
+    its largest value has no such plateau, and neither has the flat top of a slow, finely sampled sine.
 
     Args:
         low, high: the extreme values of this signal over all logs.
@@ -44,7 +44,7 @@ def plateaus(values: Array, low: float, high: float) -> tuple[tuple[int, int], .
 
 
 def _lively(lengths: NDArray[np.int64], extreme: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """(n_r,) whether noise moves nearly every sample around a run: a chirp is slow here and fast there."""
+    """(n_r,) whether the signal changes at nearly every sample near each run; a chirp is slow in other parts."""
     around = np.ones(2 * _BESIDE + 1)
     other = (~extreme).astype(np.float64)
     counts = np.convolve(other, around, "full")[_BESIDE : _BESIDE + lengths.size]

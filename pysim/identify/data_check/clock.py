@@ -1,4 +1,4 @@
-"""How fast and how evenly a log was sampled."""
+"""Sampling rate, jitter and gaps of a log."""
 
 from __future__ import annotations
 
@@ -32,10 +32,10 @@ class Clock:
 
 
 def clock(time: Array) -> Clock:
-    """Read it off the times (n_t,) of a log in s, two or more."""
+    """The time base from the times (n_t,) of a log in s, at least two."""
     intervals, found = np.diff(time), sampling(time)
     even = np.delete(intervals, found.gaps)
-    printed = found.digit**2 / 4  # what rounding adds to the variance of the intervals, at most
+    printed = found.digit**2 / 4  # largest variance of the intervals that rounding causes
     return Clock(
         start=float(time[0]),
         duration=float(time[-1] - time[0]),

@@ -1,4 +1,4 @@
-"""What a check of data finds, as a value: a code, its numbers, and the steps that cure it."""
+"""A finding of the data check: a code, its values, and the steps of preparation that correct it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from pysim.types._frozen import FrozenMapping
 
 
 class FindingCode(Enum):
-    """What is found, in the order in which it is cured. The keys of `Finding.values` stand behind it."""
+    """Kind of a finding, in the order of correction. The comments list the keys of `Finding.values`."""
 
     NOT_IN_MODEL = "not_in_model"  # signal, known (names): the model has no such variable, so it is not compared
     NOT_DRIVEN = "not_driven"  # signal, value, unit: an input of the model that no signal drives
@@ -38,13 +38,13 @@ class FindingCode(Enum):
 
 @dataclass(frozen=True)
 class Finding:
-    """One thing to look at.
+    """One possible error in the data.
 
     Args:
-        code: what it is.
-        source: of the record; the first of several where it is of a signal.
-        values: numbers and names, by the keys that stand at the code.
-        cure: steps of preparation that mend it, one after the other; none where another test or description does.
+        code: its kind.
+        source: source of the record; the first record if it is about a signal.
+        values: numbers and names, with the keys that are listed at the code.
+        cure: steps of preparation that correct it, in order; none if only a new test or description does.
     """
 
     code: FindingCode
@@ -57,5 +57,5 @@ class Finding:
 
 
 def finding(code: FindingCode, source: str, *cure: Step, **values: float | str) -> Finding:
-    """A finding with its values by their keys."""
+    """Make a finding, with its values as keyword arguments."""
     return Finding(code, source, values, cure)

@@ -1,4 +1,4 @@
-"""Power close to half the sampling rate, beyond which faster parts fold back."""
+"""Signal power close to half the sampling rate, a sign of aliasing."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ _NEAR = 0.8  # of half the sampling rate
 
 
 def share_near_nyquist(values: Array, noise: float) -> float:
-    """Share of a signal's variance that lies above 80 percent of half the sampling rate, the noise taken off.
+    """Share of a signal's variance above 80 percent of half the sampling rate, after subtraction of the noise.
 
     Args:
-        values: (n_t,) samples at an even rate.
-        noise: standard deviation of what sensor and quantisation add, white; in the signal's unit.
+        values: (n_t,) evenly spaced samples.
+        noise: standard deviation of white noise from sensor and quantisation, in the signal's unit.
     """
     if values.size < 16:
         return 0.0
@@ -25,5 +25,5 @@ def share_near_nyquist(values: Array, noise: float) -> float:
     power -= noise**2 * float(window @ window)
     top = power[int(np.ceil(_NEAR * (power.size - 1))) :]
     whole = float(power.sum())
-    spread = noise**2 * float(window @ window) * np.sqrt(power.size)  # of the noise's own sum, one standard deviation
+    spread = noise**2 * float(window @ window) * np.sqrt(power.size)  # standard deviation of the noise's total power
     return max(0.0, float(top.sum())) / whole if whole > 5 * spread and whole > 0 else 0.0

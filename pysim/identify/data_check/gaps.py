@@ -1,4 +1,4 @@
-"""What is missing in logs: lost rows and empty cells, and up to which length to fill them."""
+"""Missing data in logs: lost rows and empty cells, and the longest gaps that are filled."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from pysim.types import Dataset, Record, sampling
 
 Array = NDArray[np.float64]
 
-_FILLED = 10.0  # sampling intervals: so little a straight line bridges
+_FILLED = 10.0  # sampling intervals: longest gap that is filled by a straight line
 
 
 def fill_of(dataset: Dataset) -> FillGaps | None:
-    """The step that fills what is short in all logs and cuts them where more is missing; None where nothing is."""
+    """The step that fills short gaps in all logs and cuts logs at longer ones; None if nothing is missing."""
     short, steps, any_missing = [0.0], [], False
     for record in dataset.logs():
         log = record.data
@@ -29,7 +29,7 @@ def fill_of(dataset: Dataset) -> FillGaps | None:
 
 
 def missing_lengths(log: Record) -> list[float]:
-    """s, from the sample ahead to the one behind, of every gap in time and run of empty cells within the log."""
+    """Duration in s of every gap in time and run of empty cells, between the samples around it; infinite at an end."""
     intervals = np.diff(log.time)
     lengths = [float(intervals[k]) for k in sampling(log.time).gaps]
     for column in log.values.T:
@@ -38,7 +38,7 @@ def missing_lengths(log: Record) -> list[float]:
             behind = np.flatnonzero(np.diff(there) > 1)
             lengths += [float(log.time[there[k + 1]] - log.time[there[k]]) for k in behind]
             if not there.size or there[0] > 0 or there[-1] < column.size - 1:
-                lengths.append(float("inf"))  # at an end there is nothing to fill it with
+                lengths.append(float("inf"))  # at an end, there is no second sample to interpolate to
     return lengths
 
 

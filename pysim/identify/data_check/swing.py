@@ -1,4 +1,4 @@
-"""What the logged command of a stepped sine really did."""
+"""Frequency, amplitude and offset of the logged command of a stepped sine."""
 
 from __future__ import annotations
 
@@ -13,18 +13,18 @@ from pysim.types import sampling
 
 Array = NDArray[np.float64]
 
-_PAD = 8  # times the length of the log: how finely the spectrum is searched
-_ROUNDS = 20  # of the refinement, which converges quadratically
+_PAD = 8  # length of the padded log over that of the log, for a finer spectrum
+_ROUNDS = 20  # largest number of iterations of the refinement, which converges quadratically
 
 
 @dataclass(frozen=True)
 class Swing:
-    """A sine read off a log.
+    """A sine that was fitted to a log.
 
     Args:
         frequency: Hz.
         amplitude, offset: in the signal's unit.
-        impurity: what the sine leaves over, as root mean square over that of the sine.
+        impurity: root mean square of the residual over that of the sine.
     """
 
     frequency: float
@@ -34,11 +34,11 @@ class Swing:
 
 
 def swing(time: Array, values: Array, frequency: float) -> Swing:
-    """The sine closest to a log (n_t,), its frequency free.
+    """Fit a sine with free frequency to a log (n_t,).
 
     Args:
         time: s.
-        frequency: Hz, what it is thought to be; another one is looked for where that leaves much over.
+        frequency: start in Hz; if its fit is poor, the spectrum's strongest frequency is tried too.
     """
     told = _refined(time, values, frequency)
     if told.impurity < 0.1:
@@ -56,7 +56,7 @@ def _strongest(time: Array, values: Array) -> float:
 
 
 def _refined(time: Array, values: Array, frequency: float) -> Swing:
-    """Gauss-Newton on the frequency, amplitude, phase and offset solved for at each."""
+    """Gauss-Newton iteration on the frequency, with amplitude, phase and offset solved for at each frequency."""
     middle = 0.5 * (time[0] + time[-1])
     duration, first, s = float(time[-1] - time[0]), frequency, time - middle
     for _ in range(_ROUNDS):
