@@ -1,4 +1,4 @@
-"""From time to frequency: stepped-sine tests, sine fits, frequency responses, and how far two of them are apart."""
+"""From time to frequency: stepped-sine tests, sine fits, frequency responses, and deviations between two of them."""
 
 from pysim.identify.accuracy import (
     FREQUENCY_CRITERIA,

@@ -1,4 +1,4 @@
-"""How far a model is from its measurements, and how far it may be (thesis Sections 1.3 and 2.7)."""
+"""Deviations of a model from its measurements, and the criteria for them (thesis Sections 1.3 and 2.7)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def mean_deviation(difference: Array) -> float:
 
 
 def max_deviation(difference: Array) -> float:
-    """Largest absolute deviation, in the unit of `difference` (n,). Source: thesis Eq. 2.28, its max taken of sizes."""
+    """Largest absolute deviation, in the unit of `difference` (n,). Source: thesis Eq. 2.28, with absolute values."""
     return float(np.max(np.abs(difference)))
 
 
@@ -37,13 +37,13 @@ def response_difference(
 ) -> tuple[Array, Array]:
     """Simulated minus measured: magnitude in dB (n_f,) and phase in degrees (n_f,).
 
-    Both phases are continuous, but each may start in a turn of its own; whole turns between them are taken off at the
-    lowest frequency.
+    Both phases are continuous, but may differ by whole turns; these are subtracted so that the difference at the lowest
+    frequency is within half a turn.
 
     Args:
-        reference_hz: where both magnitudes count as 0 dB; None compares absolute gains.
+        reference_hz: frequency at which both magnitudes count as 0 dB; None compares absolute gains.
     Raises:
-        BadInput: the two were not taken at the same frequencies, or not at the reference.
+        BadInput: the frequencies of the two differ, or the reference is not among them.
     """
     if simulated.frequency.shape != measured.frequency.shape or not np.allclose(
         simulated.frequency, measured.frequency, rtol=1e-6
@@ -57,18 +57,18 @@ def response_difference(
 def frequency_deviations(
     simulated: FrequencyResponse, measured: FrequencyResponse, *, reference_hz: float | None = THESIS_REFERENCE_HZ
 ) -> tuple[Deviation, ...]:
-    """The four numbers of Table 1.3, in the order of FREQUENCY_CRITERIA."""
+    """The four deviations of thesis Table 1.3, in the order of FREQUENCY_CRITERIA."""
     magnitude, phase = response_difference(simulated, measured, reference_hz=reference_hz)
     values = (mean_deviation(magnitude), max_deviation(magnitude), mean_deviation(phase), max_deviation(phase))
     return tuple(Deviation(criterion, value) for criterion, value in zip(FREQUENCY_CRITERIA, values, strict=True))
 
 
 def time_deviations(simulated: Array, measured: Array, full_scale: float) -> tuple[Deviation, ...]:
-    """The two numbers of Table 1.4 for one signal.
+    """The two deviations of thesis Table 1.4 for one signal.
 
     Args:
-        simulated, measured: (n_t,) at the same times, in one unit.
-        full_scale: what counts as 100 percent, in that unit.
+        simulated, measured: (n_t,) at the same times, in the same unit.
+        full_scale: value that counts as 100 percent, in that unit.
     """
     percent = 100 * (np.asarray(simulated) - np.asarray(measured)) / full_scale
     values = (mean_deviation(percent), max_deviation(percent))

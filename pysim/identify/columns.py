@@ -1,4 +1,4 @@
-"""Which columns of a log an analysis takes, and how noisy they are said to be."""
+"""Columns of a log that an analysis uses, and their specified noise."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ def the_column(dataset: Dataset, record: MeasuredRecord, role: str, name: str | 
     """The column of a log over time that has the role "input" or "output".
 
     Args:
-        name: the one wanted; else, of inputs, the one that the record's numbers speak of, and the only one.
+        name: name of the column; None takes the record's command for an input, or else the only column of that role.
     Raises:
-        BadInput: no such column, or several to choose from.
+        BadInput: no such column, or several without a name.
     """
     there = dataset.columns(record, role)
     wanted = name or (record.command if role == "input" else "")
@@ -24,10 +24,10 @@ def the_column(dataset: Dataset, record: MeasuredRecord, role: str, name: str | 
 
 
 def declared_noise(dataset: Dataset, name: str) -> float | None:
-    """Standard deviation of a signal's samples as the data set declares it, rounding included; None without.
+    """Standard deviation of a signal's samples as the data set specifies it, with quantisation; None if it does not.
 
     Raises:
-        BadInput: it is said to be zero.
+        BadInput: the specified noise is zero.
     """
     signal = dataset.signal(name)
     if signal.noise is None:

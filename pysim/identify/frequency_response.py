@@ -1,4 +1,4 @@
-"""From the records of a stepped-sine test to magnitude and phase over frequency (thesis Section 2.3)."""
+"""Magnitude and phase over frequency from the records of a stepped-sine test (thesis Section 2.3)."""
 
 from __future__ import annotations
 
@@ -23,20 +23,20 @@ def frequency_response(
     onset: float,
     noise: float | None = None,
 ) -> FrequencyResponse:
-    """Fit each record's sine and set the results in a row.
+    """Fit the sine of each record, and make a frequency response of the fits.
 
     Args:
-        records: one per frequency, holding the output once it swings steadily.
-        frequencies: (n_f) Hz, increasing, of the same places.
-        test: what was commanded; its output is a column of every record.
-        onset: s; when the sine started, with phase zero.
-        noise: standard deviation of the output's samples, in its unit; from the residuals when not known.
+        records: one per frequency, with the output in steady state.
+        frequencies: (n_f) Hz, increasing, one per record.
+        test: the commanded sines; the test's output is a column of every record.
+        onset: time in s when the sine started with phase zero.
+        noise: standard deviation of the output's samples, in its unit; None estimates it from the residuals.
     Returns:
-        gain = fitted amplitude / commanded amplitude; the phase against the command, unwrapped from the lowest
-        frequency upwards, which needs less than half a turn from one frequency to the next.
+        gain = fitted amplitude / commanded amplitude; the phase relative to the command, unwrapped from the lowest
+        frequency upwards, which assumes less than half a turn between neighbouring frequencies.
     Raises:
-        BadInput: a record whose sine cannot be fitted or has no amplitude, or counts that do not match.
-    Source: thesis Eq. 2.11-2.13. Differs: the gain is kept absolute; `magnitude_db` relates it to 0.1 Hz.
+        BadInput: a record whose sine cannot be fitted or has no amplitude, or numbers that do not match.
+    Source: thesis Eq. 2.11-2.13. Differs: the gain is absolute; `magnitude_db` makes it relative to 0.1 Hz.
     """
     if len(records) != len(frequencies):
         raise BadInput(f"frequency response: {len(records)} records for {len(frequencies)} frequencies")
@@ -72,9 +72,9 @@ def magnitude_db(response: FrequencyResponse, reference_hz: float | None = THESI
 def standard_deviations(
     response: FrequencyResponse, reference_hz: float | None = THESIS_REFERENCE_HZ
 ) -> tuple[Array, Array]:
-    """Of `magnitude_db` in dB and of the phase in degrees, (n_f,) each, to first order.
+    """Standard deviations of `magnitude_db` in dB and of the phase in degrees, (n_f,) each, to first order.
 
-    Relative to a reference, the doubt of the reference adds to that of every other point and leaves none of its own.
+    For relative magnitudes, the reference's variance adds to that of every other point, and its own is zero.
 
     Raises:
         BadInput: the response has no covariance, or was not taken at the reference frequency.
@@ -92,7 +92,7 @@ def standard_deviations(
 
 
 def _reference(response: FrequencyResponse, reference_hz: float) -> int:
-    """Place of the reference frequency."""
+    """Index of the reference frequency."""
     at = np.flatnonzero(np.isclose(response.frequency, reference_hz, rtol=1e-6))
     if at.size == 0:
         raise BadInput(

@@ -1,4 +1,4 @@
-"""What a log leaves over, by frequency: noise alone is flat at one."""
+"""Power spectrum of a log's residual; that of white noise alone is flat at one."""
 
 from __future__ import annotations
 
@@ -11,20 +11,20 @@ Array = NDArray[np.float64]
 
 # Fewest samples for a spectrum.
 FEWEST = 128
-_SEGMENTS = 8  # of a log, before halves overlap
-_CORRELATED = 18 / 19  # of the degrees of freedom are left by halves of Hann windows that overlap
+_SEGMENTS = 8  # number of segments of a log, without counting the overlapping ones between them
+_CORRELATED = 18 / 19  # share of the degrees of freedom that remains with Hann windows that overlap by half
 
 
 def residual_spectrum(time: Array, values: Array) -> tuple[Array, Array, float]:
-    """Power of a residual by frequency, where white noise of standard deviation one has power 1.
+    """Power of a residual over frequency; white noise of standard deviation one has power 1.
 
     Args:
-        time: (n_t,) in s, even.
+        time: (n_t,) in s, evenly spaced.
         values: (n_t,), in standard deviations of the noise; at least FEWEST.
     Returns:
-        frequency (n_f,) in Hz, without zero and half the sampling rate, where a line has half the degrees of freedom;
+        frequency (n_f,) in Hz, without zero and half the sampling rate, whose lines have half the degrees of freedom;
         power (n_f,); and the degrees of freedom of each value.
-    Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70; Hann windows, halves overlapping.
+    Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70; Hann windows that overlap by half.
     """
     from scipy import signal  # half a second to import, and only a diagnosis' picture needs it
 

@@ -1,4 +1,4 @@
-"""Whether an output has settled: in a steady state it repeats itself from period to period."""
+"""Simulation of stepped sines until their output has settled, that is, until it is periodic."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ from pysim.identify.sine_fit import sine_fit
 from pysim.identify.stepped_sine import SteppedSine
 from pysim.types import Experiment, Outcome, Record, SineTest
 
-# Share of the response's amplitude by which the output may change over the fitted periods. What is left of a transient
-# then moves the fit by less than 0.1 dB and 0.6 degrees; the pump's own change is below a tenth of it.
+# Share of the response's amplitude by which the output may change over the fitted periods. The remaining transient then
+# changes the fit by less than 0.1 dB and 0.6 degrees; that of the pump is below a tenth of this.
 TOLERANCE = 0.01
-# A fitted amplitude below this share of the output's size is rounding, not motion.
+# A fitted amplitude below this share of the output's magnitude is rounding, not motion.
 _ROUNDING = 1e-9
 _UNSETTLED = "the output has not settled"
 
 
 @dataclass(frozen=True)
 class SteadyRun:
-    """The fitted periods of one run, and why they cannot be used; empty where they can."""
+    """The fitted periods of one run, and why they cannot be used; empty if they can."""
 
     record: Record
     trouble: str = ""
@@ -33,15 +33,15 @@ def run_until_settled(
     run: Callable[[Sequence[Experiment]], Sequence[Record]],
     plan: SteppedSine,
 ) -> tuple[SteadyRun, ...]:
-    """Run tests, and repeat those that have not settled with twice the settling, up to the plan's limit.
+    """Run tests, and repeat those that have not settled with twice the settling time, up to the plan's limit.
 
     Args:
-        tests: (n) test and frequency in Hz.
-        make: the experiment of a test at a frequency, as `stepped_sine` builds it.
-        run: runs experiments; a record per experiment, in their order.
-        plan: of the first attempt.
+        tests: n pairs of test and frequency in Hz.
+        make: returns the experiment of a test at a frequency, as `stepped_sine` builds it.
+        run: runs experiments and returns a record for each, in their order.
+        plan: plan of the first attempt.
     Returns:
-        (n) in the order of the tests.
+        n runs in the order of the tests.
     """
     results: dict[int, SteadyRun] = {}
     waiting = list(range(len(tests)))
@@ -61,13 +61,13 @@ def run_until_settled(
 
 
 def _recorded_earlier(experiment: Experiment, frequency: float, plan: SteppedSine) -> Experiment:
-    """The same run, recorded from half a period before the fitted ones."""
+    """The experiment, recorded from half a period before the fitted periods."""
     lead = experiment.times[0] - np.arange(plan.lead_points, 0, -1) / (plan.points * frequency)
     return replace(experiment, times=np.concatenate([lead, experiment.times]))
 
 
 def _examine(record: Record, output: str, frequency: float, plan: SteppedSine) -> SteadyRun:
-    """Split off the samples before the fitted periods; those at the end of the fitted ones must repeat them."""
+    """Cut off the half period before the fitted periods; the output has settled if the last half period equals it."""
     if record.outcome is not Outcome.DONE:
         return SteadyRun(record, f"{record.outcome.value}. {record.message}".strip())
     lead = plan.lead_points

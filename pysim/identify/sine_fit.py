@@ -1,4 +1,4 @@
-"""Least-squares fit of a sine of known frequency, with its doubt (thesis Section 2.2)."""
+"""Least-squares fit of a sine of known frequency, with its covariance (thesis Section 2.2)."""
 
 from __future__ import annotations
 
@@ -16,8 +16,8 @@ Array = NDArray[np.float64]
 class SineFit:
     """amplitude sin(2 pi f (t - origin) + phase) + offset.
 
-    covariance (3, 3) is of (amplitude, phase, offset), in the signal's unit and rad; residual is the standard
-    deviation of what the sine leaves over, in the signal's unit.
+    covariance (3, 3) is that of (amplitude, phase, offset), in the signal's unit and rad; residual is the standard
+    deviation of the residuals, in the signal's unit.
     """
 
     amplitude: float
@@ -36,8 +36,8 @@ def sine_fit(
         time: (n_t,) s, at least four samples, not necessarily equidistant.
         values: (n_t,) the signal.
         frequency: Hz.
-        origin: s; the phase is that at this time.
-        noise: standard deviation of the samples, in the signal's unit; estimated from the residuals when not known.
+        origin: time in s at which the phase is given.
+        noise: standard deviation of the samples, in the signal's unit; None estimates it from the residuals.
     Returns:
         the phase in (-pi, pi], and a covariance to first order in noise / amplitude.
     Raises:
@@ -75,9 +75,9 @@ def _regressors(time: Array, frequency: float) -> Array:
 
 
 def to_polar(covariance: Array, amplitude: float, phase: float) -> Array:
-    """From the covariance of (c_1, c_2, c_3) to that of (amplitude, phase, offset), by the slopes of Eq. 2.8-2.10."""
+    """Covariance of (c_1, c_2, c_3) -> that of (amplitude, phase, offset), by the Jacobian of Eq. 2.8-2.10."""
     s, c = np.sin(phase), np.cos(phase)
-    if amplitude == 0.0:  # nothing swings: any phase is as good as another
+    if amplitude == 0.0:  # the phase is undetermined
         turn = np.array([[c, s, 0.0], [0.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
         return turn @ covariance @ turn.T + np.diag([0.0, np.inf, 0.0])
     turn = np.array([[c, s, 0.0], [-s / amplitude, c / amplitude, 0.0], [0.0, 0.0, 1.0]])

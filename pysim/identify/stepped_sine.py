@@ -1,4 +1,4 @@
-"""The frequency response test of thesis Section 2.1.1 as one experiment per frequency, with closed-form commands."""
+"""The frequency-response test of thesis Section 2.1.1: one experiment per frequency, with a closed-form command."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ class SteppedSine:
         rest: s at zero command.
         ramp: s from zero to the offset, in a straight line.
         hold: s at the offset before the sine starts; the sine starts with phase zero at rest + ramp + hold.
-        settle_periods: periods of the sine that are left out of the fit, at least.
-        settle_time: s after the start of the sine that are left out of the fit, at least; the pump's transients
-            have decayed to 1e-4 of the amplitude by 0.3 s. `run_until_settled` doubles both where that is too short.
-        settle_limit: s after the start of the sine; no settling is doubled beyond it.
+        settle_periods: smallest number of periods of the sine that are left out of the fit.
+        settle_time: shortest time in s after the start of the sine that is left out of the fit. The pump's transients
+            have decayed to 1e-4 of the amplitude by 0.3 s. `run_until_settled` doubles both if they are too short.
+        settle_limit: longest time in s after the start of the sine to which settling is extended.
         fit_periods: whole periods recorded and fitted, the last ones of the test.
-        points: samples per fitted period. Equidistant over whole periods, so that the mean and every harmonic below
-            points - 1 is orthogonal to the fitted sine.
+        points: samples per fitted period. They are equidistant over whole periods, so that the mean and every harmonic
+            below points - 1 are orthogonal to the fitted sine.
     Raises:
         BadInput: a duration that is negative, or too few periods or points for a fit.
     """
@@ -53,7 +53,7 @@ class SteppedSine:
 
     @property
     def onset(self) -> float:
-        """When the sine starts, s from the start of the test."""
+        """Start of the sine, s from the start of the test."""
         return self.rest + self.ramp + self.hold
 
     def settling_periods(self, frequency: float) -> int:
@@ -66,14 +66,14 @@ class SteppedSine:
 
     @property
     def lead_points(self) -> int:
-        """Samples in the half period before the fitted ones, which shows whether the output repeats itself."""
+        """Samples in the half period before the fitted periods, which shows whether the output is periodic."""
         return self.points // 2
 
 
 def command(test: SineTest, frequency: float, plan: SteppedSine) -> Signal:
-    """Rest, ramp, hold, then amplitude sin(2 pi f (t - onset)) + offset without an end; frequency in Hz.
+    """The command: rest, ramp, hold, then amplitude sin(2 pi f (t - onset)) + offset without an end; frequency in Hz.
 
-    Source: thesis Eq. 2.1 and Section 2.1.1, steps 1 and 2. The ramp down of step 3 follows after the measurement.
+    Source: thesis Eq. 2.1 and Section 2.1.1, steps 1 and 2. The ramp down of step 3 is left out.
     """
     lead = LeadIn(plan.rest, plan.ramp, plan.hold)
     return SteppedSineCommand(test.offset, test.amplitude, frequency, math.inf, lead).signal()
@@ -87,14 +87,14 @@ def stepped_sine(
     rate_input: str | None = None,
     overrides: Mapping[str, float] | None = None,
 ) -> Experiment:
-    """The test at one frequency; it records the output over the last whole periods only.
+    """The test at one frequency; only the last whole periods of the output are recorded.
 
     Args:
         test: offset and amplitude; the model's input and output.
         frequency: Hz, positive.
-        plan: durations, periods and sampling; the thesis' own by default.
-        rate_input: a second input that takes the command's exact derivative, in the input's unit per s.
-        overrides: parameters of the model to set first.
+        plan: durations, periods and sampling; those of the thesis by default.
+        rate_input: a second input that gets the command's exact derivative, in the input's unit per s.
+        overrides: parameter of the model -> value.
     Raises:
         BadInput: a frequency that is not positive.
     """

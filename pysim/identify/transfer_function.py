@@ -41,9 +41,9 @@ class TransferFunction:
         return np.asarray(rational * np.exp(-self.dead_time * s), dtype=np.complex128)
 
     def response(self, frequency: Array, test: SineTest, *, origin: str = "transfer function") -> FrequencyResponse:
-        """Gain and unwrapped phase at frequencies (n_f,) in Hz, standing for the response of one stepped-sine test.
+        """Gain and continuous phase at frequencies (n_f,) in Hz, as the response of one stepped-sine test.
 
-        The phase is the sum of the factors' phases, so that it is right however wide the frequencies are apart.
+        The phase is the sum of the factors' phases, so it is right for any distance between frequencies.
         """
         frequency = np.asarray(frequency, dtype=np.float64)
         phase = _phase(self.numerator, frequency) - _phase(self.denominator, frequency)
@@ -57,12 +57,12 @@ class TransferFunction:
 
     @property
     def zeros(self) -> Complex:
-        """Roots of the numerator (n_z,), rad/s, by rising magnitude; leading coefficients of zero have none."""
+        """Roots of the numerator (n_z,), rad/s, by rising magnitude; leading zero coefficients are ignored."""
         return _roots(self.numerator)
 
     @property
     def gain(self) -> float:
-        """G(0): infinite with an integrator, output unit per input unit."""
+        """Static gain G(0), output unit per input unit; infinite with an integrator."""
         return self.numerator[-1] / self.denominator[-1] if self.denominator[-1] else math.inf
 
     @property
@@ -72,13 +72,13 @@ class TransferFunction:
 
 
 def _roots(coefficients: tuple[float, ...]) -> Complex:
-    """Sorted by magnitude, of a conjugate pair the one below the axis first."""
+    """Roots sorted by magnitude; of a conjugate pair, the one with the negative imaginary part is first."""
     roots = np.asarray(np.roots(coefficients), dtype=np.complex128)
     return roots[np.lexsort((roots.imag, np.abs(roots)))]
 
 
 def _phase(coefficients: tuple[float, ...], frequency: Array) -> Array:
-    """The continuous phase of a polynomial along the imaginary axis, (n_f,) rad, within half a turn of 0 at 0 Hz."""
+    """Continuous phase of a polynomial along the imaginary axis, (n_f,) rad, between -pi and pi at 0 Hz."""
     omega = 2 * np.pi * np.append(0.0, frequency)
     lead = next((c for c in coefficients if c), 1.0)
     total = np.full(omega.shape, np.angle(lead))
