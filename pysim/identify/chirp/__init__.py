@@ -1,4 +1,4 @@
-"""Frequency responses from one chirp: of the tops, of the bottoms, and their mean (thesis Section 2.5)."""
+"""Frequency responses from one chirp: by the maxima, by the minima, and their mean (thesis Section 2.5)."""
 
 from pysim.identify.chirp.analysis import analyse_chirp, chirp_responses
 from pysim.identify.chirp.branch import Branch

@@ -1,4 +1,4 @@
-"""Tops and bottoms of an answer, each by the half turn of the command that caused it."""
+"""Maxima (tops) and minima (bottoms) of an output, each assigned to the half turn of the command that caused it."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from pysim.identify.logged import LoggedWave
 from pysim.types import Record, sampling
 from pysim.types.note import Note, NoteCode
 
-# An extreme that sticks out of the level by less than this many of its standard deviations is lost in noise.
+# An extreme counts as lost in noise if its distance from the level is below this many of its standard deviations.
 _SEEN = 4.0
-# So many lost ones in a row end the search: what comes behind is chance.
+# After this many lost extremes in a row, all further ones are ignored.
 _LOST = 6
 
 
@@ -27,7 +27,7 @@ def samples_of(data: Record, command: LoggedWave, output: str) -> Samples:
 
 
 def extremes(samples: Samples, command: LoggedWave) -> Iterator[tuple[int, Extreme, CycleFit]]:
-    """Number of the half turn of the command, and the output's extreme that belongs to it, from low frequency up.
+    """Number of the command's half turn, the output's extreme that it caused, and the local fit, from low frequency up.
 
     The command's extremes are at the angles (number + 1/2) pi; even numbers are tops.
     """
@@ -40,7 +40,7 @@ def extremes(samples: Samples, command: LoggedWave) -> Iterator[tuple[int, Extre
         here = fit_cycle(samples, at - (phase or 0.0))
         if here is None:
             continue
-        # the window follows the answer: its phase there is the one between the two, up to whole turns
+        # the window is shifted by the output's phase lag, which is tracked from one extreme to the next
         found = here.phase if phase is None else phase + float(np.angle(np.exp(1j * (here.phase - phase))))
         if phase is None:
             here = fit_cycle(samples, at - found) or here
@@ -53,7 +53,7 @@ def extremes(samples: Samples, command: LoggedWave) -> Iterator[tuple[int, Extre
 def seen_ones(
     found: list[tuple[int, Extreme, CycleFit]], level: float, noise: float, command: LoggedWave
 ) -> tuple[dict[int, Extreme], list[Note]]:
-    """Those that stick out of the noise, up to where too many in a row do not."""
+    """Number -> extreme for extremes above the noise, up to where too many in a row are lost, with a note on that."""
     seen: dict[int, Extreme] = {}
     lost = 0
     for number, extreme, _ in found:
@@ -69,7 +69,7 @@ def seen_ones(
 
 
 def paired_ones(seen: dict[int, Extreme], step: int) -> list[tuple[int, int]]:
-    """(top, bottom) of extremes next to each other, each in one pair; step, 1 or -1, leads to higher frequency."""
+    """Pairs (top, bottom) of neighbouring numbers, each in one pair; step is 1 if the frequency rises, else -1."""
     pairs, taken = [], None
     for number in sorted(seen, reverse=step < 0):
         if number == taken or number + step not in seen:
@@ -80,9 +80,9 @@ def paired_ones(seen: dict[int, Extreme], step: int) -> list[tuple[int, int]]:
 
 
 def apart_ones(paired: list[tuple[int, int]], half: dict[int, float]) -> tuple[int, ...]:
-    """Places of pairs whose fits, `half` to either side of each extreme (rad), do not overlap."""
+    """Indices of pairs whose local fits do not overlap; `half`: number -> half width of its fit, rad."""
     chosen: list[int] = []
-    reached = (np.inf, -np.inf)  # angles that the last chosen one spans
+    reached = (np.inf, -np.inf)  # angles that the last chosen pair spans
     for i, pair in enumerate(paired):
         low, high = min(n * np.pi - half[n] for n in pair), max(n * np.pi + half[n] for n in pair)
         if not chosen or low >= reached[1] or high <= reached[0]:

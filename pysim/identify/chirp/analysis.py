@@ -1,4 +1,4 @@
-"""Chirp analysis: tops and bottoms of the answer against those of the command (thesis Eq. 2.15-2.21)."""
+"""Chirp analysis: tops and bottoms of the output relative to those of the command (thesis Eq. 2.15-2.21)."""
 
 from __future__ import annotations
 
@@ -23,22 +23,22 @@ Array = NDArray[np.float64]
 def analyse_chirp(
     record: MeasuredRecord, input_: str, output: str, *, level: float | None = None, noise: float | None = None
 ) -> ChirpAnalysis:
-    """Find the tops and bottoms of the output and refer each to the one of the command that caused it.
+    """Find tops and bottoms of the output, and compare each with that of the command which caused it.
 
-    Single samples are not looked at: around each extreme a turn of the output is fitted by harmonics of the command's
-    angle, the first of which may drift, and the fitted curve's extreme is taken. Which extreme of the command belongs
-    to it follows from the phase, tracked from the lowest frequency upwards.
+    Around each extreme, one or more turns of the output are fitted by harmonics of the command's angle, the first of
+    which may drift; the fitted curve's extreme is used, not a single sample. The extreme of the command that belongs to
+    it follows from the phase, which is tracked from the lowest frequency upwards.
 
     Args:
         record: of kind "chirp"; a log over time.
         input_, output: names of the columns.
-        level: what tops and bottoms count from, in the output's unit; by default the command's offset, which needs
-            output and command to have one unit, as in the thesis.
-        noise: standard deviation of the output's noise where it is known; else what the fits leave over.
+        level: reference from which tops and bottoms count, in the output's unit; None takes the command's offset,
+            which requires the same unit for output and command, as in the thesis.
+        noise: standard deviation of the output's noise if known; it counts where the residual of the fits is smaller.
     Raises:
-        BadInput: a command that is no chirp, no level between different units, or an output without a pair of extremes.
-    Source: thesis Section 2.5. Differs: the level is taken off (Eq. 2.15 and 2.16 forget the offset); extremes of
-    fitted curves in place of highest samples.
+        BadInput: a command that is no chirp, no level for different units, or an output without a pair of extremes.
+    Source: thesis Section 2.5. Differs: the level is subtracted (Eq. 2.15 and 2.16 omit the offset); extremes of
+    fitted curves replace the highest samples.
     """
     if record.kind != CHIRP.name:
         raise BadInput(f'{record.source}: its kind is "{record.kind}"; chirp analysis needs a "{CHIRP.name}"')
@@ -83,10 +83,10 @@ def chirp_responses(
     """Analyse every log of kind "chirp".
 
     Args:
-        output: the responding signal; may be left out where the logs hold a single one.
+        output: the output signal; may be left out if the logs have only one.
         level: as for `analyse_chirp`.
     Raises:
-        BadInput: no such logs, no input or output to be distinguished, or a log that `analyse_chirp` refuses.
+        BadInput: no such logs, no unique input or output, or a log that `analyse_chirp` rejects.
     """
     found = []
     for record in dataset.records:
@@ -100,7 +100,7 @@ def chirp_responses(
 
 
 def _level(data: Record, command: LoggedWave, input_: str, output: str) -> float:
-    """The command's offset, where it can be compared with the output."""
+    """The command's offset, if command and output have the same unit."""
     units = [data.units[data.names.index(name)] for name in (input_, output)]
     if units[0] != units[1]:
         raise BadInput(
@@ -111,7 +111,7 @@ def _level(data: Record, command: LoggedWave, input_: str, output: str) -> float
 
 
 def _branch(extremes: list[tuple[int, Extreme]], command: LoggedWave, level: float, noise: float, sign: int) -> Branch:
-    """Eq. 2.15 or 2.16 with the level and the noise's lift taken off, and 2.18 or 2.19."""
+    """Gain by Eq. 2.15 or 2.16, less the level and the bias by noise (`Extreme.lift`); phase by Eq. 2.18 or 2.19."""
     angle = np.array([(number + 0.5) * np.pi for number, _ in extremes])
     answered = np.array([extreme.angle for _, extreme in extremes])
     caused = command.time_of(angle)
@@ -119,7 +119,7 @@ def _branch(extremes: list[tuple[int, Extreme]], command: LoggedWave, level: flo
     lag = command.time_of(answered) - caused
     height = sign * (np.array([e.value for _, e in extremes]) - level)
     lift = noise**2 * np.array([e.lift for _, e in extremes])
-    gain = (height - np.minimum(lift, 0.5 * height)) / command.amplitude  # the lift holds for small noise
+    gain = (height - np.minimum(lift, 0.5 * height)) / command.amplitude  # the lift is right for small noise only
     turned = frequency / command.frequency_at(
         caused + lag
     )  # from the command's angle at the answer to that of Eq. 2.18
@@ -133,9 +133,9 @@ def _branch(extremes: list[tuple[int, Extreme]], command: LoggedWave, level: flo
 
 
 def _edges(command: LoggedWave, samples: Samples) -> Iterator[Note]:
-    """What the sweep itself makes doubtful."""
+    """Notes on a sweep that is too fast at its low end, and on too few samples per period at its high end."""
     low = float(np.min(command.frequency_at(np.array([command.start, command.end]))))
-    turn = np.sqrt(max(low, 0.0) ** 2 + 2 * abs(command.rate))  # after one turn from the low end
+    turn = np.sqrt(max(low, 0.0) ** 2 + 2 * abs(command.rate))  # frequency one turn after the low end
     if turn > 1.5 * low:
         yield Note(NoteCode.FAST_SWEEP, {"frequency": float(turn)})
     fewest = float(samples.per_turn.min())

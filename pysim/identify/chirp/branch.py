@@ -1,4 +1,4 @@
-"""The response of one kind of extreme over frequency."""
+"""Frequency response by one kind of extreme, tops or bottoms."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class Branch:
         frequency: (n,) Hz, of the command at its own extreme; Eq. 2.21 for the mean.
         gain: (n,) output unit per input unit, Eq. 2.15-2.17.
         phase: (n,) rad, unwrapped, Eq. 2.18-2.20.
-        gain_deviation, phase_deviation: (n,) standard deviations by noise.
+        gain_deviation, phase_deviation: (n,) standard deviations due to noise.
     """
 
     frequency: Array
@@ -39,12 +39,12 @@ class Branch:
 
     @property
     def phase_deg(self) -> Array:
-        """(n,)."""
+        """Phase in degrees, (n,)."""
         return np.degrees(self.phase)
 
     def at(self, frequency: Array) -> tuple[Array, Array]:
-        """Magnitude in dB and phase in degrees at frequencies (m,) in Hz, by straight lines between the points; not a
-        number outside them."""
+        """Magnitude in dB and phase in degrees at frequencies (m,) in Hz, by linear interpolation between the points;
+        NaN outside."""
         outside = {"left": np.nan, "right": np.nan}
         return (
             np.interp(frequency, self.frequency, self.magnitude_db, **outside),
@@ -53,9 +53,9 @@ class Branch:
 
 
 def mean_branch(top: Branch, bottom: Branch) -> Branch:
-    """Of pairs of neighbouring tops and bottoms; both have as many.
+    """The mean of pairs of neighbouring tops and bottoms.
 
-    Their doubts are taken to go together, which bounds that of the mean: neighbouring fits share half their samples.
+    Their errors are taken as fully correlated, since neighbouring fits share samples; this is an upper bound.
 
     Source: thesis Eq. 2.17, 2.20, 2.21; the mean of decibels is the geometric mean of gains.
     """

@@ -1,4 +1,4 @@
-"""The answer to a chirp, cycle by cycle, as a smooth function of the command's angle."""
+"""Local fits of the output of a chirp, cycle by cycle, as smooth functions of the command's angle."""
 
 from __future__ import annotations
 
@@ -11,14 +11,14 @@ from pysim.identify._near_orthogonal import near_orthogonal_fit
 
 Array = NDArray[np.float64]
 
-# Harmonics of the local fit: so many samples per period for each, within bounds; fewer where samples are few.
+# Samples per period for each harmonic of the local fit, most and least harmonics; with fewer samples, those of `_FEW`.
 _SAMPLES_EACH, _MOST, _LEAST = 6.0, 5, 3
 _FEW = ((10.0, 2), (5.0, 1))
-# Samples per number to be fitted, at least.
+# Smallest number of samples per coefficient.
 _SURPLUS = 2.0
-# A fit spans a turn at least, and more where the frequency changes by no more than this share within it.
+# A fit spans one turn, or up to _MOST_TURNS if the frequency changes by at most this share within it.
 _CHANGE, _MOST_TURNS = 0.1, 4.0
-# Condition number of the normal matrix, at most; some thousands where no samples are lost.
+# Largest condition number of the normal matrix; it is a few thousand if no samples are missing.
 _TOLD_APART = 1e5
 _GRID = np.linspace(-0.5 * np.pi, 0.5 * np.pi, 91)
 
@@ -42,15 +42,15 @@ class Samples:
 
 @dataclass(frozen=True)
 class CycleFit:
-    """Harmonics of the command's angle whose first drifts linearly, around one angle.
+    """Fit around one angle by harmonics of the command's angle, of which the first may drift linearly.
 
     Args:
         centre: rad.
-        half: rad; the fit holds from centre - half to centre + half.
+        half: rad; the fit covers centre - half to centre + half.
         coefficients: constant, sin, cos, sin 2, cos 2, ..., and sin, cos times the distance from the centre / half.
-        inverse: (n_c, n_c) inverse of the normal matrix: covariance of the coefficients by unit noise.
-        squares: sum of squares that is left over.
-        freedom: samples less coefficients.
+        inverse: (n_c, n_c) inverse of the normal matrix: covariance of the coefficients for unit noise.
+        squares: sum of squares of the residual.
+        freedom: number of samples less that of coefficients.
     """
 
     centre: float
@@ -62,12 +62,12 @@ class CycleFit:
 
     @property
     def phase(self) -> float:
-        """Of the first harmonic at the centre, against the command, in (-pi, pi]."""
+        """Phase of the first harmonic at the centre, relative to the command, in (-pi, pi]."""
         _, sin, cos = self.coefficients[:3]
         return float(np.arctan2(cos, sin))
 
     def extreme(self, angle: float, sign: int) -> Extreme | None:
-        """The top (sign 1) or bottom (-1) within a quarter turn of an angle; None where the curve has none inside."""
+        """The top (sign 1) or bottom (-1) within a quarter turn of an angle; None if the curve has none there."""
         grid = angle + _GRID
         best = int(np.argmax(sign * (self._basis(grid, 0) @ self.coefficients)))
         if best in (0, grid.size - 1):
@@ -89,7 +89,7 @@ class CycleFit:
         )
 
     def _basis(self, angle: Array, order: int) -> Array:
-        """The regressors' derivative of that order at angles (n,), (n, n_c)."""
+        """The regressors' derivative of an order at angles (n,), (n, n_c)."""
         return regressors(angle, self.centre, self.half, (self.coefficients.size - 3) // 2, order)
 
 
@@ -98,11 +98,11 @@ class Extreme:
     """A top or a bottom.
 
     Args:
-        angle: of the command when it happens, rad.
-        value: of the output.
-        value_deviation, angle_deviation: standard deviations by noise of unit standard deviation.
-        lift: by how much such noise moves the extreme outwards on average: the highest point of a noisy curve is
-            higher than the curve's own, by the variance of the slope over twice the bend.
+        angle: the command's angle at the extreme, rad.
+        value: value of the output.
+        value_deviation, angle_deviation: standard deviations for noise of unit standard deviation.
+        lift: bias of the value, outwards, for such noise: the highest point of a noisy curve is above that of the true
+            curve, on average by the variance of the slope over twice the curvature.
     """
 
     angle: float
@@ -113,7 +113,7 @@ class Extreme:
 
 
 def fit_cycle(samples: Samples, centre: float) -> CycleFit | None:
-    """Fit a whole turn or more around an angle; None where the log does not reach so far, or lacks samples."""
+    """Fit one turn or more around an angle; None if the log does not cover it, or has too few samples there."""
     place = min(int(np.searchsorted(samples.angle, centre)), samples.angle.size - 1)
     per_turn = float(samples.per_turn[place])
     harmonics = int(np.clip(per_turn / _SAMPLES_EACH, _LEAST, _MOST))
@@ -147,7 +147,7 @@ def fit_cycle(samples: Samples, centre: float) -> CycleFit | None:
 
 
 def regressors(angle: Array, centre: float, half: float, harmonics: int, order: int) -> Array:
-    """(n, n_c): constant, sin and cos of each harmonic, drifting sin and cos; or their derivative of that order."""
+    """(n, n_c): constant, sin and cos of each harmonic, drifting sin and cos; or their derivative of an order."""
     number = np.arange(1, harmonics + 1)
     turned = angle[:, None] * number + order * (np.pi / 2)
     matrix = np.empty((angle.size, 2 * harmonics + 3))

@@ -1,4 +1,4 @@
-"""What one chirp says."""
+"""Result of the analysis of one chirp."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from pysim.types.note import Note
 
 @dataclass(frozen=True)
 class ChirpAnalysis:
-    """What one chirp says.
+    """Frequency responses from one chirp.
 
     Args:
-        source: the record's.
-        command: the chirp as it was logged.
-        level: what tops and bottoms count from, in the output's unit.
-        top, bottom: (n,) in pairs, each bottom next to its top.
-        mean: (n,) of each pair.
-        apart: places, from low frequency up, of means whose fits share no sample.
+        source: source of the record.
+        command: the chirp of the logged command.
+        level: reference from which tops and bottoms count, in the output's unit.
+        top, bottom: n points each, in pairs of neighbouring extremes.
+        mean: mean of each pair.
+        apart: indices, from low frequency up, of means whose fits share no sample.
         noise: standard deviation of the output about the local fits, in its unit.
         input, output: names of the signals.
-        input_unit, output_unit: of them.
-        notes: what a reader must know before trusting the numbers.
+        input_unit, output_unit: units of the signals.
+        notes: reasons why the numbers may be wrong.
     """
 
     source: str
@@ -45,9 +45,9 @@ class ChirpAnalysis:
 
     @property
     def response(self) -> FrequencyResponse:
-        """The mean as a frequency response of points whose noise is independent, as a fit to it takes them to be.
+        """The mean as a frequency response, reduced to points with independent noise (`apart`), as a fit assumes.
 
-        Only those in `apart` are in it; the covariance is scaled to the command's amplitude.
+        The covariance is that of amplitudes: standard deviations of gains times the command's amplitude.
         """
         mean, places, amplitude = self.mean, list(self.apart), self.command.amplitude
         covariance = np.zeros((len(places), 3, 3))

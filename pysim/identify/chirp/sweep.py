@@ -1,4 +1,4 @@
-"""How slow a sweep has to be."""
+"""Error of a sweep through a resonance, and the fastest sweep for a given error."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from pysim.types import BadInput
 
 
 def sweep_error(rate: float, natural_hz: float, damping: float) -> float:
-    """By how much a sweep through a resonance misses the steady response, as a share of it, to first order.
+    """Relative deviation of a sweep's response from the steady response near a resonance, to first order.
 
-    With the sweep's angular rate kappa = 2 pi rate, the answer to exp(i theta(t)) is exp(i theta) (G - i kappa/2 G'');
-    next to a pair of poles with the real part -zeta omega, |G''/G| is at most 2 / (zeta omega)^2.
+    With the angular rate kappa = 2 pi rate, the response to exp(i theta(t)) is exp(i theta) (G - i kappa/2 G'').
+    Near a pair of poles with the real part -zeta omega, |G''/G| is at most 2 / (zeta omega)^2.
 
     Args:
         rate: Hz/s, of either sign.
-        natural_hz: of the least damped resonance, Hz.
+        natural_hz: natural frequency of the least damped resonance, Hz.
         damping: its damping ratio.
     Raises:
         BadInput: a natural frequency or a damping that is not positive.
@@ -26,7 +26,7 @@ def sweep_error(rate: float, natural_hz: float, damping: float) -> float:
 
 
 def fastest_rate(natural_hz: float, damping: float, error: float = 0.02) -> float:
-    """The sweep rate, Hz/s, at which `sweep_error` reaches a share of the response.
+    """The sweep rate, Hz/s, at which `sweep_error` is `error`.
 
     Raises:
         BadInput: as `sweep_error`.
