@@ -1,4 +1,4 @@
-"""What a bench commanded, found again in the column in which it was logged."""
+"""Reconstruction of a bench's command from the column in which it was logged."""
 
 from pysim.identify.logged.command import logged_command
 from pysim.identify.logged.wave import LoggedWave, logged_wave

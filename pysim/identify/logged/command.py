@@ -1,4 +1,4 @@
-"""What a bench's command did between the samples of its log."""
+"""A bench's command between the samples of its log."""
 
 from __future__ import annotations
 
@@ -17,22 +17,20 @@ Array = NDArray[np.float64]
 def logged_command(record: MeasuredRecord, column: str, hold: Command | None = None) -> Signal:
     """The command as a function of time, with its derivative.
 
-    A stepped sine and a chirp run by their closed form, fitted to the logged column; what leads to them and what
-    follows by straight lines through the samples. Steps hold each sample until the next. Anything else runs by natural
-    cubic splines through its samples, from jump to jump: a command that stood exactly still, to the last digit, for
-    three samples before or after a change has jumped when the change is more than three times that of its other side,
-    and did so at the sample that shows it first. Where noise hides that, the spline overshoots by a tenth. Before the
-    first sample its value holds.
+    A stepped sine or chirp has its closed form, fitted to the logged column, and straight lines through the samples
+    before and after. Steps hold each sample until the next. Any other command is interpolated by natural cubic splines
+    from jump to jump. A change is a jump if the command was exactly constant for three samples before or after it, and
+    the change is more than three times the one on its other side; the jump is at the first sample that shows it. If
+    noise hides this, the spline overshoots a jump by a tenth. Before the first sample, the command has its value.
 
     Args:
         record: a log over time.
         column: name of the logged command.
-        hold: how it runs between samples, STEPS, LINES or SPLINE; None as the record's kind says.
+        hold: interpolation between samples, STEPS, LINES or SPLINE; None takes that of the record's kind.
     Returns:
-        in the column's unit, in the log's time.
+        the command in the column's unit, in the log's time.
     Raises:
-        BadInput: no such column, no log over time, or a column that is not what the record's kind says.
-    """
+        BadInput: no such column, no log over time, or a column that does not match the record's kind."""
     if not isinstance(record.data, Record):
         raise BadInput(f"{record.source}: holds a response over frequency; only a log over time has a command")
     time, values = record.data.time, record.data[column]
@@ -47,7 +45,7 @@ def logged_command(record: MeasuredRecord, column: str, hold: Command | None = N
     return _from_jump_to_jump(time, values)
 
 
-# A jump is more than so many times what the command moves by beside it.
+# Smallest ratio of a jump to the change next to it.
 _JUMP = 3.0
 
 
@@ -69,11 +67,11 @@ def _from_jump_to_jump(time: Array, values: Array) -> Signal:
 
 
 def jumps(values: Array) -> list[int]:
-    """Samples (of n_t) that a jump of a command shows in first."""
+    """Indices of the first sample after each jump of a command (n_t,)."""
     change = np.abs(np.diff(values))
     if change.size < 3:
         return []
-    still = np.concatenate([[False], (change[:-1] == 0) & (change[1:] == 0), [False]])  # the middle one of three
+    still = np.concatenate([[False], (change[:-1] == 0) & (change[1:] == 0), [False]])  # middle of three equal samples
     before = np.concatenate([[False], still[:-2]])  # change k lies between samples k and k + 1
     after = np.append(still[2:], False)
     last, following = np.append(0.0, change[:-1]), np.append(change[1:], 0.0)
@@ -82,7 +80,7 @@ def jumps(values: Array) -> list[int]:
 
 
 def _around(wave: LoggedWave, time: Array, values: Array) -> Signal:
-    """Lines to the wave's start, the wave, and lines from its end."""
+    """Signal of straight lines to the wave's start, the wave, and straight lines from its end."""
     before, behind = time < wave.start, time > wave.end
     pieces = [wave_piece(wave)]
     if before.any():
@@ -100,6 +98,6 @@ def _around(wave: LoggedWave, time: Array, values: Array) -> Signal:
 
 
 def wave_piece(wave: LoggedWave) -> tuple[Array, Array, Array]:
-    """starts (1,), cubics (1, 4) and sines (1, 1, 4) of a `Signal`."""
+    """A wave as starts (1,), cubics (1, 4) and sines (1, 1, 4) of a `Signal`."""
     sine = [wave.amplitude, wave.phase, 2 * np.pi * wave.frequency, 2 * np.pi * wave.rate]
     return np.array([wave.start]), np.array([[wave.offset, 0.0, 0.0, 0.0]]), np.array([[sine]])

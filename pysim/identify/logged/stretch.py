@@ -1,4 +1,4 @@
-"""Which part of a log is a wave."""
+"""Search for the part of a log that is a wave: a sine or a chirp."""
 
 from __future__ import annotations
 
@@ -14,26 +14,26 @@ from pysim.types import BadInput, Record, sampling
 Array = NDArray[np.float64]
 Fit = Callable[[Array, Array, Wave], Wave]
 
-# A sample off the wave is a disturbance of the log where none of so many behind it is off too; else the wave ends.
+# A sample off the wave is an outlier if none of this many samples after it is off too; otherwise the wave ends there.
 _ALONE = 4
-# Samples further off than this many standard deviations do not count in a fit.
+# Samples with residuals above this many standard deviations are left out of a fit.
 _OUTLIER = 6.0
 _ROUNDS = 20
-# Of so many last samples at most, those are cut whose sum is off by more than this many of its standard deviations.
+# At most this many last samples are cut, if the sum of their residuals exceeds this many of its standard deviations.
 _BEND, _TOGETHER = 50, 4.5
 
 
 @dataclass(frozen=True)
 class Log:
-    """One logged column, and how finely it was written.
+    """One logged column, and the resolution of its values and times.
 
     Args:
         time, values: (n,).
         interval: s between samples.
-        step: of the values: the rounding of the file or the step of a converter; 0 where there is none to be seen.
-        jitter: standard deviation of the times about an even spacing, s: their rounding; 0 where they are not meant to
-            be evenly spaced.
-        gap: (from, to) in s, the longest interval that lacks samples; None where none does.
+        step: quantisation step of the values, of the file or of a converter; 0 if none is visible.
+        jitter: standard deviation of the times about an even spacing, s, due to rounding; 0 if the sampling is
+            intentionally uneven.
+        gap: (from, to) in s, the longest interval without samples; None if there is none.
     """
 
     time: Array
@@ -65,7 +65,7 @@ class Log:
 
 
 def _step(values: Array) -> float:
-    """The lattice that values (n,) lie on: equal gaps of a converter, else the last decimal that was written."""
+    """Quantisation step of values (n,): equal steps of a converter, else the last written decimal; 0 if not visible."""
     gaps = np.diff(np.unique(values))
     reach = float(np.sum(gaps))
     gaps = gaps[gaps > 1e-9 * reach]
@@ -76,7 +76,7 @@ def _step(values: Array) -> float:
     largest = float(np.max(np.abs(values)))
     for decimal in (10.0 ** np.arange(10)).tolist():
         near = 1e-6 + 1e-15 * largest * decimal
-        parts = (some * decimal for some in (values[:8], values))  # a few mostly show that it is not the last
+        parts = (some * decimal for some in (values[:8], values))  # a few values are often enough to exclude it
         if all(np.max(np.abs(part - np.round(part))) < near for part in parts):
             return 1 / decimal
     return 0.0
@@ -84,14 +84,14 @@ def _step(values: Array) -> float:
 
 @dataclass(frozen=True)
 class Stretch:
-    """A wave and the samples that follow it.
+    """A wave, and the part of the log that it describes.
 
     Args:
-        start: s; its first sample, or where a hold before it meets the wave.
-        residual: root mean square of what it leaves over there.
-        tolerance: how far off a sample may be and still belong to it.
-        is_noise: whether what is left over has no memory from one sample to the next.
-    """
+        inside: samples that belong to the wave.
+        start: s; the first of them, or the end of a hold before it.
+        residual: root mean square residual of these samples.
+        tolerance: largest residual of a sample that belongs to the wave.
+        is_noise: whether neighbouring residuals are uncorrelated."""
 
     wave: Wave
     inside: slice
@@ -102,7 +102,7 @@ class Stretch:
 
 
 def grow(log: Log, start: tuple[Wave, slice], fit: Fit) -> Stretch:
-    """Fit, take in the neighbours that follow the wave, and fit again until none does."""
+    """Fit the wave, add neighbouring samples that are on it, and repeat; then cut off a ramp after and a hold before."""
     wave, inside = start
     for _ in range(_ROUNDS):
         wave = _trimmed(log, inside, wave, fit)
@@ -116,7 +116,7 @@ def grow(log: Log, start: tuple[Wave, slice], fit: Fit) -> Stretch:
         inside = _without_bend(log, wave, inside)
         wave = _trimmed(log, inside, wave, fit)
     start_time = float(log.time[inside.start])
-    for _ in range(_ROUNDS if inside.start > 0 else 0):  # samples of the hold may lie near the wave, and bend it
+    for _ in range(_ROUNDS if inside.start > 0 else 0):  # samples of the hold may be near the wave, and bias the fit
         start_time = _onset(log, wave, inside, tolerance)
         cut = slice(int(np.searchsorted(log.time, start_time - 1e-9)), inside.stop)
         if cut == inside:
@@ -130,9 +130,9 @@ def grow(log: Log, start: tuple[Wave, slice], fit: Fit) -> Stretch:
 
 
 def _without_bend(log: Log, wave: Wave, inside: slice) -> slice:
-    """The stretch without those last samples that are off together, though each alone is not: a ramp has begun.
+    """The stretch without the last samples if the sum of their residuals is too large: a ramp has begun there.
 
-    Within a quarter period of the wave's end, for where it is faster it leaves a ramp at once.
+    Each alone may be within tolerance. Only the last quarter period counts: a faster wave leaves a ramp at once.
     """
     error = (log.values - wave.value(log.time))[inside]
     last = float(log.time[inside.stop - 1])
@@ -147,9 +147,9 @@ def _without_bend(log: Log, wave: Wave, inside: slice) -> slice:
 
 
 def _onset(log: Log, wave: Wave, inside: slice, tolerance: float) -> float:
-    """Where a hold at the wave's offset ends: the last passage through the offset up to which the samples hold still.
+    """Time at which a hold at the wave's offset ends: the last passage of the wave through its offset within the hold.
 
-    The stretch's first sample where the wave passes no offset near it: it then starts with a jump.
+    If there is no passage, the wave starts with a jump, and the time is that of the stretch's first sample.
     """
     t = log.time[inside]
     still = np.abs(log.values[inside] - wave.offset) <= tolerance
@@ -162,7 +162,7 @@ def _onset(log: Log, wave: Wave, inside: slice, tolerance: float) -> float:
         return float(t[0])
     at = float(fine[passages[-1]])
     target = half_turns[passages[-1] + 1] * np.pi
-    for _ in range(20):  # Newton: the phase is a parabola, and rises here
+    for _ in range(20):  # Newton iteration; the phase is a parabola that rises here
         at += float((target - wave.angle(at)) / wave.omega_at(at))
     return at
 
@@ -183,21 +183,21 @@ def _tolerance(log: Log, wave: Wave, error: Array) -> float:
 
 
 def _neighbours(good: NDArray[np.bool_], inside: slice) -> slice:
-    """The stretch, longer on both sides by the good samples and lone bad ones among them."""
+    """The stretch, extended on both sides by good samples, including single bad ones between them."""
     stop = inside.stop + _reach(good[inside.stop :])
     start = inside.start - _reach(good[: inside.start][::-1])
     return slice(start, stop)
 
 
 def _reach(good: NDArray[np.bool_]) -> int:
-    """How many of a row belong: those before the first bad one that has another, or the row's end, close behind."""
+    """Number of first samples that belong: up to the first bad one that is soon followed by another, or by the end."""
     bad = np.append(np.flatnonzero(~good), good.size)
     crowded = np.diff(bad, append=bad[-1]) <= _ALONE
     return int(bad[np.argmax(crowded)])
 
 
 def wander(values: Array, dead_band: float) -> float:
-    """How far a row (n,) goes to and fro beside its way from first to last; moves within the dead band do not count."""
+    """Path length of values (n,) less the distance from first to last; moves within the dead band do not count."""
     position, path = float(values[0]), 0.0
     for value in values:
         moved = max(float(value) - position - dead_band, 0.0) + min(float(value) - position + dead_band, 0.0)

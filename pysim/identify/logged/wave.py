@@ -1,4 +1,4 @@
-"""The sine or chirp that a bench commanded, fitted to the column in which it was logged."""
+"""The commanded sine or chirp, fitted to the column in which it was logged."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ from pysim.types.record_kind import CHIRP, STEPPED_SINE
 
 Array = NDArray[np.float64]
 
-# What is left of a fit may be structured up to this share of the amplitude: ten bits of a converter show no more.
+# A residual of any structure is accepted up to this share of the amplitude, the resolution of ten bits.
 _HARMLESS = 1e-3
-# Noise on the logged command, as a share of the amplitude; more is no command.
+# Largest noise on the logged command, as a share of the amplitude.
 _NOISE = 0.05
-# Before and behind the wave the command may move this many amplitudes to and fro beside its way there and back.
+# Before and after the wave, the command may move this many amplitudes to and fro, besides its lead-in and way back.
 _WANDER = 2.5
 
 
@@ -32,8 +32,8 @@ class LoggedWave:
         frequency: Hz, at the start.
         rate: Hz/s; zero for a sine.
         start, end: s; the part of the log that is the wave.
-        covariance: (2, 2) of amplitude (command's unit) and mean phase (rad), from what the fit leaves over.
-        residual: standard deviation of what the fit leaves over, in the command's unit.
+        covariance: (2, 2) of amplitude (command's unit) and mean phase (rad), from the residual.
+        residual: root mean square residual of the fit, in the command's unit.
     Source: thesis Eq. 2.1, 2.2.
     """
 
@@ -48,7 +48,7 @@ class LoggedWave:
     residual: float
 
     def angle(self, t: Array) -> Array:
-        """Phase of the sine at times (n,) in s, in rad, growing without wrap."""
+        """Phase of the sine at times (n,) in s, in rad, unwrapped."""
         s = np.asarray(t, dtype=np.float64) - self.start
         return self.phase + 2 * np.pi * (self.frequency + 0.5 * self.rate * s) * s
 
@@ -57,7 +57,7 @@ class LoggedWave:
         return self.frequency + self.rate * (np.asarray(t, dtype=np.float64) - self.start)
 
     def time_of(self, angle: Array) -> Array:
-        """When `angle` has the values (n,) in rad: s, on the branch where it grows."""
+        """Times in s at which `angle` has the values (n,) in rad, where it increases."""
         turns = (np.asarray(angle, dtype=np.float64) - self.phase) / (2 * np.pi)
         root = np.sqrt(np.maximum(self.frequency**2 + 2 * self.rate * turns, 0.0))
         return np.asarray(self.start + 2 * turns / (self.frequency + root))
@@ -70,15 +70,15 @@ class LoggedWave:
 def logged_wave(record: MeasuredRecord, column: str) -> LoggedWave:
     """Fit the wave of a stepped-sine or chirp record to its logged command.
 
-    The wave is looked for where the log holds it; a lead-in before and a ramp behind are left out. A stepped sine has
+    The log may have a lead-in before the wave and a ramp after it, which are left out. A stepped sine has
     the record's frequency; a chirp's start frequency and rate are fitted.
 
     Args:
         record: a stepped sine with its frequency, or a chirp.
         column: name of the logged command.
     Raises:
-        BadInput: another kind, no frequency, a column that does not swing as the kind says, or one whose fit leaves
-            over more than rounding and noise.
+        BadInput: another kind, no frequency, a column that is no sine or chirp, or whose fit leaves more than rounding
+            and noise.
     """
     log = Log.of(_data(record), column)
     where, lost = f"{record.source}, {column}", ""
@@ -110,10 +110,10 @@ def _data(record: MeasuredRecord) -> Record:
 
 
 def _check(log: Log, stretch: Stretch, where: str, what: str, lost: str) -> None:
-    """The wave leaves over rounding or noise, and nothing swings before or behind it.
+    """Raise BadInput if the residual is more than rounding or noise, or if the command oscillates outside the wave.
 
     Args:
-        lost: end of the messages, on samples that are missing.
+        lost: end of the messages, on missing samples.
     """
     wave, rms = stretch.wave, stretch.residual
     allowed = log.step + 3 * wave.amplitude * wave.fastest(log.time[stretch.inside]) * log.jitter
@@ -134,14 +134,14 @@ def _check(log: Log, stretch: Stretch, where: str, what: str, lost: str) -> None
 
 
 def _lost(log: Log) -> str:
-    """What else may be the matter with a chirp: its turns are counted, and none must be lost."""
+    """End of a message on a chirp with a gap, since no turn of a chirp may be lost; empty without a gap."""
     if log.gap is None:
         return ""
     return f"; or cut it where samples are lost, from {log.gap[0]:g} to {log.gap[1]:g} s"
 
 
 def _logged(stretch: Stretch, log: Log) -> LoggedWave:
-    """The fit, referred to where the wave starts."""
+    """The fit, with phase and frequency at the wave's start."""
     wave, start = stretch.wave, stretch.start
     last = stretch.inside.stop - 1
     n = max(last - stretch.inside.start - 2, 1)

@@ -1,4 +1,4 @@
-"""Least-squares fits of sines and chirps, and where they start from."""
+"""Least-squares fits of sines and chirps, and their start values."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from pysim.types import sampling
 
 Array = NDArray[np.float64]
 
-_FEWEST = 32  # samples that show how noisy a log is
-_ROUNDING = 1e-9  # of what the log covers: a hold without noise must not pass for a sine of that size
-_WHOLE = 0.01  # of the amplitude: a log that is nowhere further from one sine has no lead-in
+_FEWEST = 32  # samples that are enough to estimate the noise of a log
+_ROUNDING = 1e-9  # share of the log's range: a hold without noise must not look like a sine of this amplitude
+_WHOLE = 0.01  # share of the amplitude: if all residuals of one sine are smaller, the log has no lead-in
 
 
 @dataclass(frozen=True)
@@ -38,7 +38,7 @@ class Wave:
         return np.asarray(self.omega + self.kappa * (np.asarray(t) - self.origin))
 
     def value(self, t: Array) -> Array:
-        """At times t (n,)."""
+        """Value at times t (n,)."""
         return self.offset + self.amplitude * np.sin(self.angle(t))
 
     def fastest(self, t: Array) -> float:
@@ -47,7 +47,7 @@ class Wave:
 
 
 def fit_sine(t: Array, y: Array, omega: float) -> Wave:
-    """Least squares of known angular frequency; times and values (n,)."""
+    """Least-squares fit of a sine of known angular frequency to values (n,) at times (n,)."""
     origin = float(t[t.size // 2])
     angle = omega * (t - origin)
     matrix = np.column_stack([np.sin(angle), np.cos(angle), np.ones_like(angle)])
@@ -56,9 +56,9 @@ def fit_sine(t: Array, y: Array, omega: float) -> Wave:
 
 
 def sine_start(t: Array, y: Array, omega: float, step: float, interval: float) -> tuple[Wave, slice]:
-    """The stretch of a period that is most a sine, and its fit; the whole log where it is one, or not longer.
+    """The stretch of one period with the best sine fit, and that fit; the whole log if it is one sine, or short.
 
-    At high frequencies it is longer than a period, so that it shows how noisy the log is.
+    At high frequencies the stretch is longer than a period, so that it shows the noise of the log.
 
     Args:
         t, y: (n,).
@@ -82,8 +82,8 @@ def sine_start(t: Array, y: Array, omega: float, step: float, interval: float) -
 
 
 def fit_chirp(t: Array, y: Array, start: Wave) -> Wave:
-    """Non-linear least squares of all five numbers from a start whose phase is within a quarter turn everywhere."""
-    from scipy.optimize import least_squares  # 0.2 s to import, for those alone who fit a chirp
+    """Nonlinear least-squares fit of a chirp's five parameters; the start's phase must be right to a quarter turn."""
+    from scipy.optimize import least_squares  # takes 0.2 s to import, so only if needed
 
     middle, half = 0.5 * (t[0] + t[-1]), 0.5 * (t[-1] - t[0])
     s = (t - middle) / half
@@ -121,10 +121,10 @@ def fit_chirp(t: Array, y: Array, start: Wave) -> Wave:
 
 
 def chirp_start(t: Array, y: Array) -> tuple[Wave, slice] | None:
-    """A chirp through the times at which the values pass their median; None where they do so less than six times.
+    """A chirp from the times at which the values pass their median; None if there are fewer than six such passages.
 
-    A lead-in from zero and a ramp back may add a passage each, which the quadratic through the others shows. Those that
-    lost samples hide are counted by how fast the wave is beside them.
+    Lead-in and ramp back may add passages, which are outliers of the quadratic phase and are left out. Passages in a
+    gap are counted by the frequency around the gap.
     """
     offset = float(np.median(y))
     amplitude = float(np.median(np.abs(y - offset))) * np.sqrt(2)  # of a sine, half the samples are within sin 45 deg
@@ -141,14 +141,14 @@ def chirp_start(t: Array, y: Array) -> tuple[Wave, slice] | None:
         error = np.abs(np.polyval(c, times - origin) - half_turns)
         good = error <= max(6 * float(np.median(error)), 0.05)
     sure = np.flatnonzero(good)
-    first, last = sure[[1, -2]] if sure.size > 7 else sure[[0, -1]]  # the outermost may belong to the ramps
+    first, last = sure[[1, -2]] if sure.size > 7 else sure[[0, -1]]  # the first and last may belong to the ramps
     phase = float(c[2]) + (0.0 if upwards[0] else np.pi)
     wave = Wave(offset, amplitude, phase, float(c[1]), float(2 * c[0]), origin)
     return wave, slice(int(np.searchsorted(t, times[first])), int(np.searchsorted(t, times[last])) + 1)
 
 
 def _counted(t: Array, times: Array, upwards: NDArray[np.bool_]) -> tuple[Array, NDArray[np.bool_], Array]:
-    """Passages (n,) outside of the gaps of a log, and the half turns (n,) of the wave up to each, rad."""
+    """Passages (n,) outside the gaps of a log, their directions, and the wave's half turns up to each (n,), rad."""
     gaps = [(t[k], t[k + 1]) for k in sampling(t).gaps]
     seen = np.ones(times.size, dtype=bool)
     for begin, end in gaps:
@@ -167,8 +167,8 @@ def _counted(t: Array, times: Array, upwards: NDArray[np.bool_]) -> tuple[Array,
 
 
 def _passages(t: Array, y: Array, threshold: float) -> tuple[Array, NDArray[np.bool_]]:
-    """When y passes from beyond the threshold on one side to beyond it on the other: the time of zero, and whether
-    upwards; between both, noise may pass zero several times, and the middle of them is taken."""
+    """Times at which y changes from beyond the threshold on one side to beyond it on the other, and whether upwards.
+    The time is that of zero; if noise causes several zeros, it is the middle between the first and the last."""
     beyond = np.flatnonzero(np.abs(y) > threshold)
     side = y[beyond] > 0
     turns = np.flatnonzero(side[1:] != side[:-1])
