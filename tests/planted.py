@@ -4,8 +4,12 @@ import functools
 import re
 import subprocess
 import sys
+import tempfile
 import zipfile
 from pathlib import Path
+
+from fmu_build.pack import host_platform
+from tests.generated_c import ZIG
 
 SOURCE = Path(__file__).with_name("planted.c")
 _FAULTS = re.search(r"NONE, (.*?)\n};", SOURCE.read_text(encoding="utf-8"), re.DOTALL)
@@ -43,7 +47,7 @@ def planted(fault: str, folder: Path) -> Path:
     output = folder / f"{fault.lower()}.fmu"
     with zipfile.ZipFile(output, "w") as archive:
         archive.writestr("modelDescription.xml", _DESCRIPTION.format(fault=FAULTS.index(fault)))
-        archive.writestr(f"binaries/{_platform()}/mass{_suffix()}", library(folder))
+        archive.writestr(f"binaries/{_platform()}/mass{_suffix()}", library())
     return output
 
 
@@ -56,9 +60,14 @@ def _suffix() -> str:
 
 
 @functools.cache
-def library(folder: Path) -> bytes:
-    """planted.c compiled for this machine; no sanitiser, whose traps would come before the faults."""
-    target = folder / f"mass{_suffix()}"
-    words = ["-std=c11", "-O1", "-shared", "-fPIC", "-Wall", "-Wextra", "-Werror", "-fno-sanitize=all"]
-    subprocess.run([sys.executable, "-m", "ziglang", "cc", *words, str(SOURCE), "-o", str(target)], check=True)
-    return target.read_bytes()
+def library() -> bytes:
+    """planted.c compiled for this machine; no sanitiser, whose traps would come before the faults.
+
+    For the target of our FMUs and without debug data, so that zig compiles its start-up code once for both.
+    """
+    words = ["-target", host_platform().zig_target, "-std=c11", "-O1", "-g0", "-s", "-shared"]
+    words += ["-fPIC", "-Wall", "-Wextra", "-Werror", "-fno-sanitize=all"]
+    with tempfile.TemporaryDirectory() as folder:
+        target = Path(folder) / f"mass{_suffix()}"
+        subprocess.run([str(ZIG), "cc", *words, str(SOURCE), "-o", str(target)], check=True)
+        return target.read_bytes()
