@@ -145,23 +145,27 @@ def install(groups: Iterable[str]) -> None:
     """
     extras, others = requirements(groups)
     names = ",".join(extras)
-    words = [
-        "install",
-        "--no-compile",
-        "--progress-bar",
-        "off",
-        "--editable",
-        f"{ROOT}[{names}]" if names else str(ROOT),
-        *others,
-    ]
+    wanted = ["--editable", f"{ROOT}[{names}]" if names else str(ROOT), *others]
+    words = ["install", "--no-compile", "--progress-bar", "off", *wanted]
     if WHEELS.is_dir():
         words += ["--find-links", str(WHEELS)]
         if pip([*words, "--no-index"]) == 0:
             return
         print("run.py: wheels/ does not hold every package; asking the package index.", file=sys.stderr, flush=True)
+    elif os.environ.get("HTB_INSTALLER") == "uv" and uv(wanted) == 0:
+        return
     code = pip(words)
     if code:
         raise subprocess.CalledProcessError(code, "pip")
+
+
+def uv(wanted: Sequence[str]) -> int:
+    """Install with uv, which takes a third of pip's time, for who needs a new environment again and again; its exit
+    status. What pip is configured with, such as a proxy, uv knows nothing of: so pip stays what everyone else uses."""
+    known = [one for one in requirements({"bundle"})[1] if one.startswith("uv")]
+    if pip(["install", "--no-compile", "--progress-bar", "off", *known]):
+        return 1
+    return subprocess.run([str(PYTHON), "-m", "uv", "pip", "install", "--quiet", *wanted]).returncode
 
 
 def project() -> dict[str, Any]:

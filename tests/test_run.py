@@ -277,6 +277,7 @@ def test_wheels_beside_it_come_first(
     monkeypatch.setattr(script, "pip", lambda words: asked.append(words) or 0)
     script.install({"app", "data", "test"})
     (words,) = asked
+    assert words[0] == "install"
     assert "--no-index" in words
     assert words[words.index("--find-links") + 1] == str(script.WHEELS)
     assert words[words.index("--editable") + 1] == f"{script.ROOT}[app,data]"
@@ -286,6 +287,28 @@ def test_wheels_beside_it_come_first(
     script.install(set())
     assert ["--no-index" in words for words in asked] == [True, False]
     assert "wheels/ does not hold every package" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize("works", [True, False])
+def test_uv_installs_where_it_is_asked_for_and_pip_where_that_fails(
+    script: ModuleType, monkeypatch: pytest.MonkeyPatch, works: bool
+) -> None:
+    groups = '[dependency-groups]\ntest = ["pytest>=8.0"]\nbundle = ["uv>=0.5"]\n'
+    (script.ROOT / "pyproject.toml").write_text('[project]\nname = "one"\n' + groups)
+    asked: list[list[str]] = []
+
+    def run(words: list[str]) -> subprocess.CompletedProcess[str]:
+        asked.append(words[1:])
+        return subprocess.CompletedProcess(words, int(not works))
+
+    monkeypatch.setattr(script, "pip", lambda words: asked.append(["-m", "pip", *words]) or 0)
+    monkeypatch.setattr(script.subprocess, "run", run)
+    monkeypatch.setenv("HTB_INSTALLER", "uv")
+    script.install({"test"})
+    own = ["--editable", str(script.ROOT), "pytest>=8.0"]
+    assert [words[1] for words in asked] == ["pip", "uv", *([] if works else ["pip"])]
+    assert asked[0][-1] == "uv>=0.5"
+    assert all(words[-3:] == own for words in asked[1:])
 
 
 def test_windows_is_told_when_the_folder_lies_too_deep(
