@@ -63,6 +63,7 @@ class Case:
         right: keys as the folder's README has them.
         failing: what today's code gets wrong -> why.
         today: what it answered, and its commit.
+        slow: whether a faster test asks for the same.
     """
 
     name: str
@@ -74,6 +75,7 @@ class Case:
     right: Mapping[str, Any]
     failing: Mapping[str, str] = field(default_factory=dict)
     today: Mapping[str, Any] = field(default_factory=dict)
+    slow: bool = False
 
     def command(self, seed: int) -> Command:
         """A command of this case."""
@@ -147,6 +149,7 @@ def read_case(path: Path) -> Case:
         right=given["right"],
         failing=given.get("failing", {}),
         today=given.get("today", {}),
+        slow=given.get("slow", False),
     )
 
 

@@ -18,6 +18,7 @@ def rows(group: str) -> list[Any]:
         for check in asked(case):
             why = case.failing.get(check)
             marks = [pytest.mark.xfail(strict=True, raises=AssertionError, reason=why)] if why else []
+            marks += [pytest.mark.slow] if case.slow else []
             found.append(pytest.param(case, check, id=f"{case.name}-{check}", marks=marks))
     return found
 
