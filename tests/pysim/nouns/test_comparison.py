@@ -12,6 +12,7 @@ from pysim.nouns.model import Model
 from pysim.present.notes import USES
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
 from tests.pysim.nouns.conftest import FRICTION, TRUE
+from tests.toy import measured
 
 
 def truth(mass: Model) -> Model:
@@ -102,9 +103,9 @@ def test_comparison_diagnosis_and_fit_say_the_same(mass: Model, data: Dataset, w
     assert by_compare == pytest.approx([why.steps["fitted"][-1], why.steps["used to choose"][-1]], rel=1e-3)
 
 
-def test_a_log_that_is_held_out_is_not_said_to_be_missing(mass: Model, data: Dataset) -> None:
+def test_a_log_that_is_held_out_is_not_said_to_be_missing(mass: Model) -> None:
     """Nothing looks at it before the verdict, which is no reason to say that every log is fitted."""
-    said = "every record is fitted"
+    said, data = "every record is fitted", measured(3, "toy.friction", F_c=0.0)
     for use, lacks in (("test", False), ("fit", True)):
         records = tuple(one if one.use == "fit" else replace(one, use=use) for one in data.records)
         why = pysim.diagnose(mass, replace(data, records=records), effects=["toy.friction"], max_effects=0)
