@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from textwrap import dedent
 from typing import Any
@@ -12,7 +13,7 @@ from typing import Any
 from fmu_build.text import ClassText, Declaration, Libraries
 from fmu_build.text.declarations import Kind, Modifier, modifiers
 from fmu_build.text.expressions import literal
-from fmu_build.text.libraries import bundled_library
+from fmu_build.text.libraries import bundled_library, files_of, read_text
 from fmu_build.text.tokens import string_value
 from pysim.effects._text import as_bad_input, attributes_of, known_class
 from pysim.types import BadInput, Effect, EffectParameter
@@ -52,23 +53,28 @@ def read_catalogue(*libraries: Path) -> tuple[Effect, ...]:
     Raises:
         BadInput: two effects of one name, or a parameter without bounds or unit; with file and class.
     """
+    with as_bad_input():
+        texts = tuple((file, read_text(file)) for place in libraries for file, _ in files_of(place))
+        return _effects(libraries, texts)
+
+
+@lru_cache(maxsize=16)
+def _effects(libraries: tuple[Path, ...], texts: tuple[tuple[Path, str], ...]) -> tuple[Effect, ...]:
+    """What `read_catalogue` gives, read again only where a text of the libraries has changed."""
     library = Libraries(libraries)
     found: dict[str, ClassText] = {}
     effects = []
-    with as_bad_input():
-        annotated = list(_annotated(library))
-        smooth = {
-            name: _effect(name, text, said, library) for text, said in annotated if (name := _string(said, "smooth"))
-        }
-        for text, said in annotated:
-            if "effect" not in said:
-                continue
-            name = _string(said, "effect")
-            if name in found:
-                other = found[name].source.file
-                raise BadInput(f"{text.source.file}: the effect {name} is also in {other}; rename one of the two")
-            found[name] = text
-            effects.append(_effect(name, text, said, library, smooth.get(name)))
+    annotated = list(_annotated(library))
+    smooth = {name: _effect(name, text, said, library) for text, said in annotated if (name := _string(said, "smooth"))}
+    for text, said in annotated:
+        if "effect" not in said:
+            continue
+        name = _string(said, "effect")
+        if name in found:
+            other = found[name].source.file
+            raise BadInput(f"{text.source.file}: the effect {name} is also in {other}; rename one of the two")
+        found[name] = text
+        effects.append(_effect(name, text, said, library, smooth.get(name)))
     return tuple(effects)
 
 

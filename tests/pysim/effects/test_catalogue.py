@@ -71,6 +71,12 @@ def test_a_users_library_in_one_file(tmp_path: Path) -> None:
     assert effect.strengths == (torque, on)
 
 
+def test_a_text_that_was_changed_is_read_again(tmp_path: Path) -> None:
+    for torque in ("50", "60", "50"):
+        (effect,) = read_catalogue(library(tmp_path, DRIVE.replace("max=50", f"max={torque}")))
+        assert effect.parameters[0].max == float(torque)
+
+
 def test_a_file_that_does_not_say_where_it_belongs_belongs_to_its_folder(tmp_path: Path) -> None:
     (tmp_path / "Lib" / "Sub").mkdir(parents=True)
     (tmp_path / "Lib" / "package.mo").write_text("package Lib\nend Lib;\n")
