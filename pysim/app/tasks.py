@@ -52,12 +52,13 @@ class Tasks:
         self._followed: tuple[Any, ...] = ()
 
     def model(self) -> dict[str, Any]:
-        """What the project's model holds, as `pysim model --json` says it."""
+        """What the project's model holds, as `pysim model --json` says it, and whether it is the thesis' pump."""
         settings = self._project.settings()
         libraries = [*map(Path, settings.libraries), *self._project.laws.glob("*.mo")]
         model = workflow.model_of(settings.model, libraries)
         known = workflow.inside(model, libraries)
-        return dict(data(Inside(model, known.class_name, known.slots, known.taken, tuple(libraries))))
+        found = data(Inside(model, known.class_name, known.slots, known.taken, tuple(libraries)))
+        return {**found, "is_thesis_pump": known.is_thesis_pump}
 
     def checked(self) -> DataCheck:
         """What is to be looked at in the logs as they are prepared, beside the model's answers to their inputs."""

@@ -44,7 +44,9 @@ def write_extended(found: Diagnosis, parts: SessionParts, folder: Path) -> dict[
         files = {"modelica": folder / f"{name}.mo", "fmu": fmu, **{law.stem: law for law in laws}}
         about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."
     else:
-        about = f"{parts.model_name}, refitted to data set {parts.dataset.name}. {_set_before(parts)}"
+        values = ", ".join(f"{name} = {value!r}" for name, value in parts.overrides.items())
+        held = f"They hold with what was set: {values}." if values else ""
+        about = f"{parts.model_name}, refitted to data set {parts.dataset.name}. {held}"
     for k, law in enumerate(law for law in found.learned if law.modelica):
         key = "learned" if k == 0 else f"learned_{k + 1}"
         files[key] = folder / law_file(law)
@@ -64,12 +66,6 @@ def classes_beside(variants: Variants, effects: Sequence[Effect], folder: Path) 
         if copy.resolve() != file.resolve():
             shutil.copyfile(file, copy)
     return [*files]
-
-
-def _set_before(parts: SessionParts) -> str:
-    """What the values hold with; nothing where nothing was set."""
-    values = ", ".join(f"{name} = {value!r}" for name, value in parts.overrides.items())
-    return f"They hold with what was set: {values}." if values else ""
 
 
 def parameters_text(about: str, values: Mapping[str, float]) -> str:
@@ -112,7 +108,7 @@ def _comment(found: Diagnosis, parts: SessionParts, files: Sequence[Path], laws:
             for law in found.learned
             if law.slot not in inside
         ),
-        *(f"- {text}" for text in _limits(found, parts.dataset)),
+        *(f"- {text}" for text in _limits(found, parts)),
     ]
     indent = {True: "  ", False: ""}
     wrapped = [
@@ -121,13 +117,13 @@ def _comment(found: Diagnosis, parts: SessionParts, files: Sequence[Path], laws:
     return "\n".join(wrapped)
 
 
-def _limits(found: Diagnosis, dataset: Dataset) -> list[str]:
+def _limits(found: Diagnosis, parts: SessionParts) -> list[str]:
     """What the data did not show."""
-    texts = [f"beyond what was excited: {_excited(dataset)}"]
-    if not any(record.held_out for record in dataset.records):
+    texts = [f"beyond what was excited: {_excited(parts.dataset)}"]
+    if not any(record.held_out for record in parts.dataset.records):
         texts.append("for other excitation without a test: every record was fitted")
     last = found.history[-1] if found.history else None
-    if last is not None and not last.passes:
+    if last is not None and not last.passes and parts.inside.is_thesis_pump:
         texts.append(f"as a match by the thesis' limits: {limits_sentence(last)}".removesuffix("."))
     if not found.complete:
         texts.append("as complete: more than noise is left, and what that is could not be named")

@@ -107,12 +107,14 @@ class ModelInside:
         slots: replaceable parts of the class.
         taken: effects that its slots take.
         catalogue: every effect of the libraries.
+        is_thesis_pump: whether the class is the thesis' pump or extends it: limits of its Tables 1.3 and 1.4 hold.
     """
 
     class_name: str
     slots: tuple[Slot, ...]
     taken: tuple[Effect, ...]
     catalogue: tuple[Effect, ...]
+    is_thesis_pump: bool = False
 
     @property
     def candidates(self) -> tuple[Effect, ...]:
@@ -128,14 +130,17 @@ def inside(model: Model, libraries: Sequence[Path | str] = ()) -> ModelInside:
     Raises:
         BadInput: a library that cannot be read.
     """
+    from fmu_build.text import Libraries
     from pysim.effects import declares, fitting, read_catalogue, slots
 
     places = with_standard(libraries)
     catalogue = read_catalogue(*places)
     if not declares(model.name, places):
         return ModelInside("", (), (), catalogue)
-    taken = fitting(catalogue, model.name, places)
-    return ModelInside(model.name, slots(model.name, places), taken, catalogue)
+    taken, library = fitting(catalogue, model.name, places), Libraries(places)
+    names = [one.full_name for one in library.ancestry(library.find(model.name))]
+    pump = any(name.startswith("HydraulicTestBench.Pump.") for name in names)
+    return ModelInside(model.name, slots(model.name, places), taken, catalogue, pump)
 
 
 def with_standard(libraries: Sequence[Path | str]) -> list[Path]:

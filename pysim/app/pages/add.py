@@ -65,7 +65,8 @@ def _below(desk: Desk) -> None:
         return
     _error(history(answer, settings.added))
     _branches(desk)
-    _criteria(answer, settings.added)
+    if (desk.model or {}).get("is_thesis_pump"):
+        _criteria(answer, settings.added)
     _parameters(answer)
     for one in answer.data["notes"]:
         note(str(one["text"]))

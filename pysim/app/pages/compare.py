@@ -67,8 +67,7 @@ def _top(desk: Desk) -> None:
             for step in answer.data["error"]:
                 value = step["fit"] or step["validate"]
                 name = step_name(step["step"])
-                kind = f"chip {'good' if step['criteria'] and step['passes'] else ''}"
-                text("span", f"{name}: {value:.2f}" if value else name, kind)
+                text("span", f"{name}: {value:.2f}" if value else name, "chip")
 
 
 def _maps(desk: Desk, view: _View) -> None:

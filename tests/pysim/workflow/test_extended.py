@@ -156,8 +156,11 @@ def test_the_header_tells_when_not_to_trust_it(found: Diagnosis, tmp_path: Path)
         (replace(found, ties=(("toy.friction", "toy.twin"),)), given()),
         (found, replace(given(), dataset=replace(data, records=data.records[:1]))),
     ]
+    failing = replace(found, history=(replace(found.history[-1], passes=False),))
+    pump = replace(given(), inside=replace(given().inside, is_thesis_pump=True))
+    weak += [(failing, pump), (failing, given())]  # its limits are for its pump alone
     limits = [sum(line.startswith("- ") for line in head(*one, tmp_path).splitlines()) for one in weak]
-    assert limits == [limits[0], *[limits[0] + 1] * 3]
+    assert limits == [limits[0], *[limits[0] + 1] * 4, limits[0]]
 
 
 def test_where_nothing_was_added_the_base_model_has_its_values(found: Diagnosis, tmp_path: Path) -> None:

@@ -94,6 +94,21 @@ def test_inside_a_model_are_its_slots_and_what_they_take() -> None:
     assert {effect.name for effect in found.catalogue} > set(CATALOGUE)
 
 
+@pytest.mark.parametrize(
+    ("text", "is_pump"),
+    [
+        ("model Mine extends HydraulicTestBench.Pump.A4VSG; end Mine;", True),
+        ("model Half extends HydraulicTestBench.Pump.FreeGreyBox; end Half; model Mine extends Half; end Mine;", True),
+        ("model Mine HydraulicTestBench.Pump.A4VSG pump; end Mine;", False),
+        ("model Mine Real x = time; end Mine;", False),
+    ],
+)
+def test_limits_of_the_thesis_hold_for_its_pump_and_what_extends_it(text: str, is_pump: bool, tmp_path: Path) -> None:
+    (tmp_path / "Mine.mo").write_text(text)
+    model = replace(model_of("Toy.Mass", [library()]), name="Mine")
+    assert inside(model, [tmp_path / "Mine.mo"]).is_thesis_pump is is_pump
+
+
 def response(*frequencies: float) -> FrequencyResponse:
     ones = np.ones(len(frequencies))
     return FrequencyResponse(np.array(frequencies), ones, -ones, SineTest(0.0, 1.0, "F", "x"), "measured")
