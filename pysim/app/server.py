@@ -28,7 +28,7 @@ from pysim.app.pages.shell import shell
 from pysim.app.project import Project
 from pysim.app.recent import remember
 from pysim.app.records import MOST, Overlay, compared_overlay, measured_overlay
-from pysim.app.upload import Adopted, Batch, Limits, adopt, announced
+from pysim.app.upload import Adopted, Batch, Limits, adopt
 from pysim.io import counted
 from pysim.types import BadInput
 
@@ -199,8 +199,10 @@ def _routes(desk: Desk) -> None:
             return PlainTextResponse(_BROKE_OFF, 409)
         kept = False
         try:
-            size, digest = announced(request.headers)
-            await batch.take(request.query_params.get("name", ""), request.stream(), size=size, digest=digest)
+            size = request.headers.get("content-length", "")
+            if not (size.isascii() and size.isdigit()):
+                raise BadInput("a file came without its length; drop it again, in a browser of today")
+            await batch.take(request.query_params.get("name", ""), request.stream(), size=int(size))
             kept = True
         except ClientDisconnect:
             return PlainTextResponse("the connection broke; drop it again", 400)

@@ -2,12 +2,9 @@
 
 from __future__ import annotations
 
-import base64
-import hashlib
-import re
 import shutil
 import zipfile
-from collections.abc import AsyncIterator, Iterator, Mapping, Sequence
+from collections.abc import AsyncIterator, Iterator, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path, PurePosixPath, PureWindowsPath
 from secrets import token_urlsafe
@@ -21,7 +18,6 @@ from pysim.types import BadInput
 
 _PIECE = 2**20
 _LONGEST, _BYTES = 200, 255  # letters of a name, and what disks keep of it in UTF-8
-_SHA_256 = re.compile(r"(?:^|,)\s*sha-256=:([A-Za-z0-9+/]{43}=):\s*(?:,|$)")  # of the field Content-Digest, RFC 9530
 
 
 @dataclass(frozen=True)
@@ -54,29 +50,25 @@ class Batch:
     whole: int = 0  # of the files, those that have arrived to their last byte
     _taken: dict[str, tuple[str, str]] = field(default_factory=dict)  # what same_file says -> name, and archive or ""
 
-    async def take(self, name: str, pieces: AsyncIterator[bytes], *, size: int, digest: bytes | None = None) -> None:
+    async def take(self, name: str, pieces: AsyncIterator[bytes], *, size: int) -> None:
         """One file, as it comes in. It gets its name once it is whole; of one that broke off nothing stays.
 
         Args:
             size: bytes that its sender announced.
-            digest: SHA-256 of these bytes; None where the sender gave none.
         """
         target = self.target(name)
         self.count(size, name)
         partial = target.with_name(f".{token_urlsafe(9)}.part")
-        found, seen = hashlib.sha256(), 0
+        seen = 0
         try:
             with partial.open("wb") as file:
                 async for piece in pieces:
                     seen += len(piece)
                     if seen > size:
                         break
-                    found.update(piece)
                     file.write(piece)
             if seen != size:
                 raise BadInput(f"{name} did not arrive whole ({seen} bytes where {size} were announced); drop it again")
-            if digest is not None and found.digest() != digest:
-                raise BadInput(f"{name} did not arrive as it was sent (another SHA-256); drop it again")
             partial.replace(target)
             self.whole += 1
         finally:
@@ -153,21 +145,6 @@ class Batch:
                     while piece := source.read(_PIECE):  # what the archive says of sizes is not believed
                         self.count(len(piece), member.filename)
                         file.write(piece)
-
-
-def announced(headers: Mapping[str, str]) -> tuple[int, bytes | None]:
-    """What the sender of a file says of it: its length in bytes, and its SHA-256 where there is a Content-Digest.
-
-    Raises:
-        BadInput: no length, or a digest of another form than RFC 9530 gives it.
-    """
-    length, digest = headers.get("content-length", ""), headers.get("content-digest", "")
-    if not (length.isascii() and length.isdigit()):
-        raise BadInput("a file came without its length; drop it again, in a browser of today")
-    found = _SHA_256.search(digest)
-    if found is None and "sha-256" in digest:
-        raise BadInput(f"{digest[:80]!r} is no SHA-256 of a file; drop it again, in a browser of today")
-    return int(length), None if found is None else base64.b64decode(found[1])
 
 
 @dataclass(frozen=True)
