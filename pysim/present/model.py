@@ -45,7 +45,8 @@ def text(result: Inside) -> str:
     for causality in ("input", "output"):
         lines += [f"{causality}s", *(f"  {v.name} [{v.unit}] {v.description}".rstrip() for v in _of(model, causality))]
     lines.append("parameters with bounds; a diagnosis refits by itself those with a nominal value")
-    lines += [f"  {v.name} = {v.start:g}, {_range(v)} [{v.unit}] {v.description}".rstrip() for v in _bounded(model)]
+    bounded = [v for v in _of(model, "parameter") if None not in (v.start, v.min, v.max)]
+    lines += [f"  {v.name} = {v.start:g}, {_range(v)} [{v.unit}] {v.description}".rstrip() for v in bounded]
     for slot in slots:
         own = ", ".join(effect.name for effect in effects if effect.slot == slot.name) or "no effect of the libraries"
         lines.append(f"slot {slot.name}: {own}")
@@ -67,13 +68,12 @@ def data(result: Inside) -> dict[str, Any]:
 
 
 def _data(model: Model, class_name: str, slots: tuple[Slot, ...]) -> dict[str, Any]:
-    variables = [v for v in model.variables if v.causality in ("input", "output", "local") and v.type == "Real"]
-    if model.abilities.fmi == 3:
-        variables = [v for v in model.variables if v.causality in ("input", "output", "local")]
+    shown, fmi = ("input", "output", "local"), model.abilities.fmi
+    variables = [v for v in model.variables if v.causality in shown and (fmi == 3 or v.type == "Real")]
     return {
         "name": model.name,
         "class": class_name,
-        "fmi": model.abilities.fmi,
+        "fmi": fmi,
         "states": list(model.abilities.states),
         "variables": [[v.name, v.causality, v.unit, v.description] for v in variables],
         "parameters": [
@@ -174,10 +174,6 @@ def sketch_chart(sketch: Sketch, name: str) -> Chart:
 
 def _of(model: Model, causality: str) -> list[Variable]:
     return [v for v in model.variables if v.causality == causality]
-
-
-def _bounded(model: Model) -> list[Variable]:
-    return [v for v in _of(model, "parameter") if None not in (v.start, v.min, v.max)]
 
 
 def _range(v: Variable) -> str:

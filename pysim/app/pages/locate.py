@@ -13,6 +13,7 @@ from pysim.app.pages.common import busy, ended, nothing, start
 from pysim.app.pages.moving import moving
 from pysim.app.pages.write import Writing
 from pysim.app.parts import Drawing, box, button, card, note, text
+from pysim.present.diagnosis.law_words import formula_text
 
 _Found = Mapping[str, Mapping[str, Any]]
 
@@ -126,7 +127,11 @@ def _below(desk: Desk, chosen: dict[str, str], laws: dict[str, Writing]) -> None
         return
     with card(f"What {name} would need" if one else name):
         answer = _answer(desk)
-        if one and (words := answer.data["reason"] if answer and name == next(iter(found)) else one["formula"]):
+        if one:
+            looks = formula_text(one["formula"], one["factor"], one["shape"]["unit"])
+            words = (
+                answer.data["reason"] if answer and name == next(iter(found)) else looks and f"It looks like {looks}."
+            )
             text("p", str(words), "statement")
         about = str(slots[name]["about"]) if name in slots else ""
         if about:

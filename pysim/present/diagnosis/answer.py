@@ -10,7 +10,7 @@ from pathlib import Path
 
 from pysim.identify.greybox import step_warnings
 from pysim.io import shown_value
-from pysim.present.diagnosis.law_words import ABSORBED, law_kind
+from pysim.present.diagnosis.law_words import ABSORBED, formula_text, law_kind
 from pysim.present.diagnosis.words import (
     QUESTIONS,
     UNIT,
@@ -160,7 +160,7 @@ def _candidates(diagnosis: Diagnosis) -> Iterator[str]:
     if names:
         yield f"{'Candidates':<{width + 2}}  explains  gain less penalty (nats)"
     for name, row in zip(names, rows, strict=True):
-        how = "" if row.refitted else "  screened only"
+        how = "" if row.refitted else "  estimated"
         yield f"  {name:<{width}}  {100 * row.explained:6.1f} %  {row.score:10.4g}{how}"
 
 
@@ -178,7 +178,7 @@ def _laws(diagnosis: Diagnosis) -> Iterator[str]:
         return
     yield "Laws learned from the data"
     for law in diagnosis.laws[:_ROWS]:
-        formula = f"  {law.formula}" if law.formula else ""
+        formula = f"  {formula_text(law.formula, law.factor, law.unit)}".rstrip()
         yield f"  {law.slot}: {law_kind(law)} over {law.argument}, {share_text(law.share)} of the misfit{formula}"
     yield from _curve(diagnosis.laws[0])
 

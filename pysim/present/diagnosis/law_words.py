@@ -31,6 +31,12 @@ def law_kind(law: LearnedLaw) -> str:
     return _PER_FACTOR.get(law.unit, f"coefficient of {law.factor}")
 
 
+def formula_text(formula: str, factor: str, unit: str) -> str:
+    """A learned law as it acts: its formula with the unit, times its factor; "" where no formula fits."""
+    curve = formula if re.fullmatch(r"[-+.\de]+", formula) else f"({formula})"
+    return " * ".join(filter(None, [f"{curve} {unit}".removesuffix(" 1"), factor])) if formula else ""
+
+
 def law_sentence(law: LearnedLaw) -> str:
     """What is missing, how much of the misfit it explains, what it looks like, and what it does to the error."""
     kind = law_kind(law)
@@ -43,7 +49,7 @@ def law_sentence(law: LearnedLaw) -> str:
         texts = [f"The model lacks {'an' if kind == 'angle' else 'a'} {kind} at {law.slot} that {on}."]
     texts.append(f"It explains {100 * law.share:.1f} % of the misfit.")
     if law.formula:
-        texts.append(f"It looks like {law.formula}.")
+        texts.append(f"It looks like {formula_text(law.formula, law.factor, law.unit)}.")
     before, after = law.held_out
     if before is not None and after is not None:
         texts.append(f"On logs {USES['validate']} the residual goes from {before:.3g} to {after:.3g} with it.")

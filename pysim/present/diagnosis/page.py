@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pysim.io import shown_value
 from pysim.present.criteria import CRITERIA
 from pysim.present.diagnosis.answer import Diagnosed, files
-from pysim.present.diagnosis.law_words import law_kind, law_sentence
+from pysim.present.diagnosis.law_words import formula_text, law_kind, law_sentence
 from pysim.present.diagnosis.words import (
     BEYOND,
     candidates_shown,
@@ -26,7 +26,7 @@ from pysim.present.notes import USES, direction_words, estimate_words, listed, s
 from pysim.present.page import cell, commands, heading, items, paragraph, pictures, statement, table
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing
-from pysim.types import Diagnosis, ErrorStep, Estimate, FoundEffect, Rival
+from pysim.types import Diagnosis, ErrorStep, Estimate, FoundEffect
 from pysim.types.answer import REFIT
 
 _WORST = 15  # places listed
@@ -95,7 +95,10 @@ def _effects(effects: Sequence[FoundEffect]) -> list[str]:
 def _laws(diagnosis: Diagnosis) -> list[str]:
     if not diagnosis.laws:
         return []
-    rows = [[x.slot, law_kind(x), x.argument, share_text(x.share), x.formula or "none found"] for x in diagnosis.laws]
+    rows = []
+    for one in diagnosis.laws:
+        formula = formula_text(one.formula, one.factor, one.unit) or "none found"
+        rows.append([one.slot, law_kind(one), one.argument, share_text(one.share), formula])
     head = ["place", "what", "depends on", "of the misfit", "formula"]
     classes = [law.modelica for law in diagnosis.laws[:1] if law.modelica]
     first = law_sentence(diagnosis.laws[0])
@@ -130,15 +133,13 @@ def _candidates(diagnosis: Diagnosis) -> list[str]:
         return []
     texts = [f"These data cannot tell apart: {listed(group)}." for group in diagnosis.ties]
     head = ["effects", "of the misfit", "gain less penalty (nats)", "by chance", "how", "sizes there"]
-    rows = [_candidate(row) for row in candidates_shown(diagnosis)]
+    rows = []
+    for row in candidates_shown(diagnosis):
+        sizes_there = ", ".join(f"{name} {value:.4g}" for name, value in row.parameters.items())
+        numbers = (share_text(row.explained), f"{row.score:,.1f}", chance_text(row.p_value))
+        rows.append([" + ".join(row.effects), *numbers, "refitted" if row.refitted else "estimated", sizes_there])
     caption = "Candidates beside the base model, and what improves a model with effects"
     return [*(paragraph(text, note=True) for text in texts), table(caption, head, rows, words=[0, 5])]
-
-
-def _candidate(row: Rival) -> list[str]:
-    sizes_there = ", ".join(f"{name} {value:.4g}" for name, value in row.parameters.items())
-    texts = (share_text(row.explained), f"{row.score:,.1f}", chance_text(row.p_value))
-    return [" + ".join(row.effects), *texts, "refitted" if row.refitted else "screened only", sizes_there]
 
 
 def _parameters(diagnosis: Diagnosis) -> list[str]:

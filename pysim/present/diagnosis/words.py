@@ -179,12 +179,14 @@ def limits_sentence(step: ErrorStep) -> str:
     """Whether the limits of thesis Tables 1.3 and 1.4 are met, with the worst values and the limits themselves."""
     texts = []
     for criteria in _judging(step):
-        values = [f"{_worst(step, c)} {_UNITS.get(c.unit, c.unit)} {_how(c)} (limit {c.limit:g})" for c in criteria]
+        values = []
+        for c in criteria:
+            how = "on average" if c.name.startswith("mean") else "at most"
+            values.append(f"{_worst(step, c)} {_UNITS.get(c.unit, c.unit)} {how} (limit {c.limit:g})")
         texts.append(f"{_capital(criteria[0].source)} is {_verdict(step, criteria)}: at worst {listed(values)}.")
     largest = max((value for value in (step.fit, step.validate) if value is not None), default=0.0)
     if texts and step.passes and largest > BEYOND:
         texts.append("These limits are wider than the noise: that they are met does not make the model complete.")
-    texts = texts or ["Nothing was compared that thesis Tables 1.3 and 1.4 have limits for."]
     if step.not_simulated:
         texts.append(f"{_capital(_lost(step))}: how far the model is from what was measured there is not known.")
     return " ".join(texts)
@@ -219,10 +221,6 @@ def _worst(step: ErrorStep, criterion: Criterion) -> str:
     """Its worst value, with as many digits as tell it from its limit."""
     value = step.criteria[criterion.symbol]
     return next((text for text in (f"{value:.3g}", f"{value:.6g}") if float(text) != criterion.limit), f"{value:g}")
-
-
-def _how(criterion: Criterion) -> str:
-    return "on average" if criterion.name.startswith("mean") else "at most"
 
 
 def _capital(text: str) -> str:

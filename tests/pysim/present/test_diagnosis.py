@@ -12,7 +12,7 @@ import pytest
 
 from pysim.present import Drawing, data, diagnosis, text
 from pysim.present.diagnosis import Diagnosed
-from pysim.present.diagnosis.law_words import ABSORBED, law_kind, law_sentence
+from pysim.present.diagnosis.law_words import ABSORBED, formula_text, law_kind, law_sentence
 from pysim.present.diagnosis.words import (
     added_sentence,
     comparison_sentence,
@@ -190,6 +190,19 @@ def test_the_steps_alone_say_their_numbers() -> None:
     assert numbers(ranking_sentence(found_offset()))[:3] == [3, 4, 99.0]
     assert numbers(ranking_sentence(found_offset(rivals=found_offset().rivals[3:]))) == [1]
     assert numbers(added_sentence(found_offset())) == [4.2, 1.0, 3.2, 1.01, 0.1, 0.5]
+
+
+@pytest.mark.parametrize(
+    ("given", "whole"),
+    [
+        (("-442", "sign(v)", "N"), "-442 N * sign(v)"),
+        (("1.2e+04 + 3.1e+07*x^2", "v", "N.s/m"), "(1.2e+04 + 3.1e+07*x^2) N.s/m * v"),
+        (("-2*x", "", "1"), "(-2*x)"),
+        (("", "v", "N"), ""),
+    ],
+)
+def test_a_formula_has_its_unit_and_its_factor(given: tuple[str, str, str], whole: str) -> None:
+    assert formula_text(*given) == whole
 
 
 @pytest.mark.parametrize(

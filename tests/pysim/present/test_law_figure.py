@@ -47,9 +47,10 @@ def below(law: LearnedLaw) -> str:
 
 
 def test_the_formula_stands_below_and_what_refitting_absorbs_is_said() -> None:
-    formula = "-80 N sign(pistonForce.v)"
-    assert below(replace(FRICTION, formula=formula)) == formula
-    assert below(replace(FRICTION, formula=formula, absorbed=V[:, None])).startswith(f"{formula}\n")
+    formula = "-80 N * sign(pistonForce.v)"
+    law = replace(FRICTION, formula="-80", factor="sign(pistonForce.v)")
+    assert below(law) == formula
+    assert below(replace(law, absorbed=V[:, None])).startswith(f"{formula}\n")
 
 
 def test_places_that_would_do_as_well_are_said() -> None:

@@ -16,7 +16,7 @@ _ROWS = 14  # candidates shown
 
 
 def candidates_figure(diagnosis: Diagnosis) -> Figure:
-    """Share of the misfit that each candidate explains, the best on top: full bars were refitted, hollow ones screened.
+    """Share of the misfit that each candidate explains, the best on top: full bars are refitted, hollow ones estimated.
 
     What was added, and what these data cannot tell from it, have colours of their own.
 
@@ -44,7 +44,7 @@ def candidates_figure(diagnosis: Diagnosis) -> Figure:
     kinds = {"added": Patch(facecolor=style.COLOURS[0])} if added - tied else {}
     kinds |= {"indistinguishable": Patch(facecolor=style.COLOURS[4])} if tied else {}
     kinds |= {"refitted": Patch(facecolor=style.COLOURS[5])}
-    kinds |= {"screened only": Patch(facecolor="white", edgecolor=style.COLOURS[5], hatch="////")}
+    kinds |= {"estimated": Patch(facecolor="white", edgecolor=style.COLOURS[5], hatch="////")}
     style.legend_above(figure, list(kinds.values()), list(kinds))
     return figure
 

@@ -10,7 +10,7 @@ import numpy as np
 from pysim.io import shown_unit
 from pysim.present import style
 from pysim.present.charts import Chart, axis, between, chart, level_line, plain, unit_text
-from pysim.present.diagnosis.law_words import ABSORBED, law_kind
+from pysim.present.diagnosis.law_words import ABSORBED, formula_text, law_kind
 from pysim.types import BadInput, LearnedLaw
 
 if TYPE_CHECKING:
@@ -45,7 +45,7 @@ def law_figure(law: LearnedLaw, samples: NDArray[np.float64] | None = None) -> F
     bottom.set_xlabel(f"{law.argument} ({unit_in})")
     top.set_ylabel(f"Missing {law_kind(law)} at {law.slot} ({unit_out})")
     style.legend_above(figure, [line, band], [f"explains {100 * law.share:.0f} % of the misfit", "95 % band"])
-    notes = [law.formula] if law.formula else []
+    notes = [*filter(None, [formula_text(law.formula, law.factor, law.unit)])]
     if law.alternatives:
         notes.append(f"these data cannot tell it from a law at {', '.join(law.alternatives)}")
     if law.absorbed.size:
