@@ -273,7 +273,7 @@ def note(words: str, kind: str = "") -> None:
 def say(words: str, *, bad: bool = False) -> None:
     """A sentence that goes away by itself; an error stays until it is read."""
     kind = {"type": "negative", "timeout": 0, "close_button": "Close"} if bad else {"type": "positive", "timeout": 3500}
-    ui.notify(words, position="bottom-left", multi_line=True, **kind)  # type: ignore[arg-type]
+    ui.notify(words, position="bottom-right", multi_line=True, **kind)  # type: ignore[arg-type]
 
 
 def curve(shown: Mapping[str, Any] | None) -> None:
