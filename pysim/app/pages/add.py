@@ -41,19 +41,11 @@ def _top(desk: Desk) -> None:
     if answer is not None:
         if running is None:
             doubts(answer)
-        _chain(desk, settings.added)
-
-
-def _chain(desk: Desk, added: tuple[str, ...]) -> None:
-    """What the model has now, and the way back."""
-    with box("row end"):
-        with box("chain"):
-            for k, words in enumerate(("as it is", "refitted", *(f"+ {name}" for name in added))):
-                if k:
-                    text("span", "→", "arrow").props('aria-hidden="true"')
-                text("span", words, "chip")
-        if added:
-            button(f"Undo {added[-1]}", partial(desk.choose, added[:-1]), "small", off=busy(desk))
+        if settings.added:
+            back = partial(desk.choose, settings.added[:-1])
+            with box("row end"):
+                text("span", f"The model with {' and '.join(settings.added)}", "statement")
+                button(f"Undo {settings.added[-1]}", back, "small", off=busy(desk))
 
 
 def _below(desk: Desk) -> None:

@@ -13,6 +13,7 @@ from pysim.app.live import live
 from pysim.app.pages.common import busy, ended, nothing, played, start
 from pysim.app.pages.moving import moving
 from pysim.app.parts import box, button, card, curve, head, text
+from pysim.present.diagnosis.words import share_text
 
 
 def candidates_page(desk: Desk) -> None:
@@ -47,7 +48,7 @@ def _build(desk: Desk) -> None:
         rows = _rows(answer)
         if not rows:
             rows = [{"effect": one["name"]} for one in effects]
-        top = max((row["score"] for row in rows if row.get("score")), default=1.0)
+        top = max([1e-9, *(row.get("score") or 0.0 for row in rows)])
         groups = [] if answer is None else [set(group) for group in answer.data["confusable"]]
         with box("tight").props('role="list"'):
             for rank, row in enumerate(rows, 1):
@@ -60,6 +61,12 @@ def _rows(answer: Answer | None) -> list[Mapping[str, Any]]:
         return []
     first = [row for row in answer.data["ranking"] if row["round"] == 1]
     return sorted(first, key=lambda row: -(row["score"] or 0.0))
+
+
+def best_of(answer: Answer) -> str:
+    """The candidate that improves the fit most, or that none does."""
+    first = next(iter(_rows(answer)), None)
+    return str(first["effect"]) if first is not None and (first["score"] or 0.0) > 0 else "none gains"
 
 
 def _verdict(answer: Answer) -> None:
@@ -79,9 +86,10 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
     name = str(row["effect"])
     known = next((one for one in (desk.model or {}).get("effects", []) if one["name"] == name), None)
     tied = any(name in group for group in groups)
-    kind = f"candidate {'first' if rank == 1 and 'score' in row else ''} {'tied' if tied else ''}"
-    with box(kind).props('role="listitem"').mark(name):
-        text("span", str(rank) if "score" in row else "·", "rank")
+    gains, place = (row.get("score") or 0.0) > 0, "first " * (rank == 1)
+    kind = f"{place if gains else 'idle ' if 'score' in row else ''}{'tied' if tied else ''}"
+    with box(f"candidate {kind}").props('role="listitem"').mark(name):
+        text("span", str(rank) if gains else "·", "rank")
         curve(known and known["sketch"])
         with box("tight"):
             _named(known or {"name": name}, tied=tied)
@@ -132,9 +140,9 @@ def _gain(row: Mapping[str, Any], top: float) -> None:
         score = float(row["score"] or 0.0)
         with box("bar"):
             ui.element("i").style(f"width: {max(0.0, min(100.0, 100 * score / top)):.1f}%")
-        how = "refitted" if row["refitted"] else "screened"
-        share = f"explains {100 * float(row['explained'] or 0.0):.1f} % of the misfit"
-        text("span", f"{share} ({how})" if score > 0 else f"no better for its parameters ({how})")
+        how = "refitted" if row["refitted"] else "estimated, not refitted"
+        share = f"explains {share_text(float(row['explained'] or 0.0))} of the misfit"
+        text("span", f"{share} ({how})" if score > 0 else "gains nothing: no better than the model without it")
         sizes = ", ".join(f"{name} {value:.4g}" for name, value in row["parameters"].items() if value is not None)
         text("span", sizes, "small mono")
 

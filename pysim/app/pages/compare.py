@@ -20,7 +20,7 @@ from pysim.app.records import compared_overlay, measured_overlay, stage_keys
 from pysim.app.working_point import command_unit, response_unit, working_point
 from pysim.present.comparison.figures import bode_chart
 from pysim.present.diagnosis.figures.where import map_chart
-from pysim.present.diagnosis.words import step_name
+from pysim.present.diagnosis.words import BEYOND, step_name
 from pysim.present.notes import USES
 from pysim.types import Dataset, MeasuredRecord, Record
 
@@ -172,17 +172,12 @@ def _list(view: _View, dataset: Dataset, errors: Mapping[int, list[float | None]
 
 def _row(log: MeasuredRecord, unit: str, errors: list[float | None], count: int) -> list[Any]:
     """A log with its errors over noise, of which there are cells for so many."""
-    told = [quantity(log.offset, unit), quantity(log.amplitude, unit), _told(log.frequency)]
-    cells = [_error(value) for value in [*errors, *[None] * (count - len(errors))]]
-    return [log.source, USES[log.use], *told, *cells]
-
-
-def _error(value: float | None) -> Any:
-    return "" if value is None else {"text": f"{value:.2f}", "value": value, "mark": "high" if value > 1.5 else "low"}
-
-
-def _told(value: float | None) -> str:
-    return "" if value is None else f"{value:g}"
+    hertz = "" if log.frequency is None else f"{log.frequency:g}"
+    cells: list[Any] = ["" for _ in range(count)]
+    for k, value in enumerate(errors):
+        if value is not None:
+            cells[k] = {"text": f"{value:.2f}", "value": value, "mark": "high" if value > BEYOND else "low"}
+    return [log.source, USES[log.use], quantity(log.offset, unit), quantity(log.amplitude, unit), hertz, *cells]
 
 
 def _bode(desk: Desk, view: _View) -> None:

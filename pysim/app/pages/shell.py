@@ -11,7 +11,7 @@ from pysim.app.desk import Desk
 from pysim.app.jobs import FAILED
 from pysim.app.live import live
 from pysim.app.pages.add import add_page
-from pysim.app.pages.candidates import candidates_page
+from pysim.app.pages.candidates import best_of, candidates_page
 from pysim.app.pages.common import refused
 from pysim.app.pages.compare import compare_page
 from pysim.app.pages.data import data_page
@@ -190,7 +190,7 @@ def _states(desk: Desk) -> list[tuple[str, bool]]:
     now = answers.with_effects(settings.added)
     error = "" if compared is None else f"{_rms(compared.base['step'], compared.data['error'])} × noise"
     first = "" if located is None else str(located.data["missing"][0]["slot"])
-    best = "" if ranked is None else str(ranked.data["ranking"][0]["effect"])
+    best = "" if ranked is None else best_of(ranked)
     verdict = best if whole is None else str(whole.data["verdict"])
     last = "" if now is None or not settings.added else f"{_rms(settings.added[-1], now.data['error'])} × noise"
     return [
