@@ -14,7 +14,7 @@ from pysim.app.project import Project
 from pysim.io import StageFile, read_stages
 from pysim.types import BadInput
 
-_STEPS = ("prior", "refit")
+STEPS = ("prior", "refit")
 _KEYS = ("verdict", "reason", "added", "ranking", "confusable", "error", "missing", "next_test", "notes", "files")
 
 
@@ -55,8 +55,8 @@ class Answer:
 
     @property
     def last(self) -> Mapping[str, Any]:
-        """The model with all that was added."""
-        return self.stages.about[-1]
+        """The model with all that was added; the law of Locate was not."""
+        return self.base if self.job.work.kind == "locate" else self.stages.about[-1]
 
 
 @lru_cache(maxsize=32)
@@ -98,8 +98,9 @@ class Answers:
         """The result whose model has just these effects; without any, whatever has the refitted model."""
         if added:
             return self.branches.get(added)
-        exact = (one for one in self.all if not one.added and one.stages.about)
-        return next(exact, next((one for one in self.all if one.stage("refit")), None))
+        exact = [one for one in self.all if not one.added and one.stages.about]
+        exact.sort(key=lambda one: one.job.work.kind != "diagnose")  # it may have added a law that it learned
+        return next(iter(exact), next((one for one in self.all if one.stage("refit")), None))
 
     @property
     def branches(self) -> dict[tuple[str, ...], Answer]:
@@ -121,6 +122,11 @@ class Answers:
 
 
 def history(answer: Answer, added: tuple[str, ...]) -> list[Mapping[str, Any]]:
-    """Steps of the error up to the effects that are in the model now."""
-    shown = (*_STEPS, *added)
+    """Steps of the error up to what is in the model now: effects, and a law that was learned and added with them."""
+    shown = {*STEPS, *added} | ({answer.last["step"]} if added == answer.added else set())
     return [step for step in answer.data["error"] if step["step"] in shown]
+
+
+def current(answer: Answer, added: tuple[str, ...]) -> Mapping[str, Any]:
+    """The model as it is now, beside every record."""
+    return answer.stage(history(answer, added)[-1]["step"]) or answer.base

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.app.answers import Answer
+from pysim.app.answers import STEPS, Answer
 from pysim.io import shown_unit
 from pysim.io.prepare.log_names import PART
 from pysim.present.charts import LOOKS, Chart
@@ -63,9 +63,10 @@ class Overlay:
 
 def stage_keys(answer: Answer) -> list[tuple[str, str, Mapping[str, Any]]]:
     """Key of LOOKS, words, and stage of the untouched, the refitted and the final model."""
-    found = [(step, LOOKS[step].words, answer.stage(step)) for step in ("prior", "refit")]
-    if answer.added:
-        found.append(("last", f"with {' and '.join(answer.added)}", answer.last))
+    found = [(step, LOOKS[step].words, answer.stage(step)) for step in STEPS]
+    if answer.last["step"] not in STEPS:
+        names = dict.fromkeys((*answer.added, answer.last["step"]))
+        found.append(("last", f"with {' and '.join(names)}", answer.last))
     return [(key, words, stage) for key, words, stage in found if stage is not None]
 
 

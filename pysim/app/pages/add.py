@@ -7,10 +7,10 @@ from functools import partial
 from string import ascii_uppercase
 from typing import Any
 
-from pysim.app.answers import Answer, history
+from pysim.app.answers import Answer, current, history
 from pysim.app.desk import Desk
 from pysim.app.live import live
-from pysim.app.pages.common import busy, doubts, ended, nothing, start
+from pysim.app.pages.common import busy, doubts, ended, nothing, start_button
 from pysim.app.pages.moving import moving
 from pysim.app.parts import Chart, Entry, Table, box, button, card, head, note, text
 from pysim.present.criteria import CRITERIA
@@ -36,7 +36,7 @@ def _top(desk: Desk) -> None:
     ended(desk)
     if desk.answers.verdict is None and not settings.added and running is None:
         with box("row"):
-            button("Find what is missing", lambda: start(desk, lambda: desk.work("diagnose")), "main", off=busy(desk))
+            start_button(desk, "Find what is missing", "diagnose", "main")
             text("span", "or try a candidate on the page Candidates", "small")
     if answer is not None:
         if running is None:
@@ -59,7 +59,7 @@ def _below(desk: Desk) -> None:
     _branches(desk)
     if (desk.model or {}).get("is_thesis_pump"):
         _criteria(answer, settings.added)
-    _parameters(answer)
+    _parameters(answer, settings.added)
     for one in answer.data["notes"]:
         note(str(one["text"]))
 
@@ -125,10 +125,11 @@ def _criteria(answer: Answer, added: Sequence[str]) -> None:
         Table("Worst value of each criterion", columns, rows)
 
 
-def _parameters(answer: Answer) -> None:
+def _parameters(answer: Answer, added: tuple[str, ...]) -> None:
     """Before and after, with 95 percent intervals."""
+    now = current(answer, added)
     before = {e["name"]: e for e in answer.base["estimates"]}
-    after = {e["name"]: e for e in answer.last["estimates"]} if answer.added else {}
+    after = {} if now is answer.base else {e["name"]: e for e in now["estimates"]}
     names = list(dict.fromkeys([*before, *after]))
     if not names:
         return

@@ -10,7 +10,7 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.live import live
-from pysim.app.pages.common import busy, ended, nothing, played, start
+from pysim.app.pages.common import busy, ended, nothing, played, start_button
 from pysim.app.pages.moving import moving
 from pysim.app.parts import box, button, card, curve, head, text
 from pysim.present.diagnosis.words import share_text
@@ -29,10 +29,8 @@ def _top(desk: Desk) -> None:
     head("What may be missing", told)
     ended(desk)
     with box("row"):
-        main = "main" if answer is None else ""
-        button("Rank the candidates", lambda: start(desk, lambda: desk.work("rank")), main, off=busy(desk))
-        find = lambda: start(desk, lambda: desk.work("diagnose"), then="/add")  # noqa: E731
-        button("Find what is missing", find, off=busy(desk))
+        start_button(desk, "Rank the candidates", "rank", "main" if answer is None else "")
+        start_button(desk, "Find what is missing", "diagnose", then="/add")
         text("span", "Ranking decides nothing; finding adds what the measurements demand, and says why.", "small")
     if desk.answers.verdict is not None:
         _verdict(desk.answers.verdict)

@@ -12,7 +12,7 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.disk import disk_trouble
-from pysim.app.jobs import FAILED, STOPPED, Work
+from pysim.app.jobs import FAILED, STOPPED
 from pysim.app.parts import Chart, Entry, box, button, note, say, text
 from pysim.app.records import MOST, Overlay
 from pysim.app.worker import Ended
@@ -26,11 +26,15 @@ def refused(error: Exception) -> None:
         say(str(told) or "the process that did it broke down; press again", bad=True)
 
 
-def start(desk: Desk, work: Callable[[], Work], *, then: str = "") -> None:
-    """Start a piece of work, and go to a page."""
-    desk.start(work())
-    if then:
-        ui.navigate.to(then)
+def start_button(desk: Desk, words: str, command: str, kind: str = "", *, then: str = "") -> None:
+    """A button that starts a piece of work, by its name in `works`, and goes to a page."""
+
+    def begin() -> None:
+        desk.start(desk.work(command))
+        if then:
+            ui.navigate.to(then)
+
+    button(words, begin, kind, off=busy(desk))
 
 
 def busy(desk: Desk, here: str = "") -> str:

@@ -11,13 +11,12 @@ from nicegui import ui
 
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
-from pysim.app.error_map import ErrorMap, error_maps
+from pysim.app.error_map import ErrorMap, command_unit, error_maps, response_unit, working_point
 from pysim.app.live import live
-from pysim.app.pages.common import busy, doubts, ended, nothing, record_chart, segments, start
+from pysim.app.pages.common import doubts, ended, nothing, record_chart, segments, start_button
 from pysim.app.pages.moving import moving
-from pysim.app.parts import Chart, Table, box, button, card, head, quantity, text
+from pysim.app.parts import Chart, Table, box, card, head, quantity, text
 from pysim.app.records import compared_overlay, measured_overlay, stage_keys
-from pysim.app.working_point import command_unit, response_unit, working_point
 from pysim.present.comparison.figures import bode_chart
 from pysim.present.diagnosis.figures.where import map_chart
 from pysim.present.diagnosis.words import BEYOND, step_name
@@ -61,8 +60,7 @@ def _top(desk: Desk) -> None:
     if answer is not None:
         doubts(answer)
     with box("row"):
-        kind = "main" if answer is None else ""
-        button("Compare and refit", lambda: start(desk, lambda: desk.work("compare")), kind, off=busy(desk))
+        start_button(desk, "Compare and refit", "compare", "main" if answer is None else "")
         if answer is not None:
             for step in answer.data["error"]:
                 value = step["fit"] or step["validate"]
@@ -151,7 +149,7 @@ def _errors(answer: Answer | None) -> dict[int, list[float | None]]:
 
     None for a model that has not simulated it.
     """
-    stages = [] if answer is None else [answer.base, answer.last][: 2 if answer.added else 1]
+    stages = [] if answer is None else [answer.base, answer.last][: 1 if answer.last is answer.base else 2]
     found: dict[int, list[float | None]] = {}
     for k, stage in enumerate(stages):
         for record in stage["records"]:

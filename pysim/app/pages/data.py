@@ -13,7 +13,7 @@ from pysim.app import description
 from pysim.app.desk import Desk, Loaded
 from pysim.app.live import live
 from pysim.app.pages.bare import describe_form
-from pysim.app.pages.common import amount, busy, ended, record_chart, start, unfit
+from pysim.app.pages.common import amount, busy, ended, record_chart, start_button, unfit
 from pysim.app.pages.start import examples, projects
 from pysim.app.parts import Choice, Drop, Entry, Table, box, button, card, head, note, quantity, say, text
 from pysim.app.records import measured_overlay
@@ -68,10 +68,8 @@ def _ready(desk: Desk) -> None:
             told = "Compare refits the model and shows where it fails. Find also tries every effect that fits."
             text("span", told, "small")
         with box("row"):
-            compare = lambda: start(desk, lambda: desk.work("compare"), then="/compare")  # noqa: E731
-            button("Compare and refit", compare, off=busy(desk))
-            find = lambda: start(desk, lambda: desk.work("diagnose"), then="/add")  # noqa: E731
-            button("Find what is missing", find, "main", off=busy(desk))
+            start_button(desk, "Compare and refit", "compare", then="/compare")
+            start_button(desk, "Find what is missing", "diagnose", "main", then="/add")
 
 
 def _model(desk: Desk, named: dict[str, str]) -> None:

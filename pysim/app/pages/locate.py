@@ -9,10 +9,10 @@ from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.live import live
 from pysim.app.pages.candidates import effect_row
-from pysim.app.pages.common import busy, ended, nothing, start
+from pysim.app.pages.common import ended, nothing, start_button
 from pysim.app.pages.moving import moving
 from pysim.app.pages.write import Writing
-from pysim.app.parts import Drawing, box, button, card, note, text
+from pysim.app.parts import Drawing, box, card, note, text
 from pysim.present.diagnosis.law_words import formula_text
 
 _Found = Mapping[str, Mapping[str, Any]]
@@ -47,7 +47,7 @@ def _build(desk: Desk, chosen: dict[str, str]) -> None:
     asked = answer is not None and answer.asked == desk.project.settings().added
     with box("row end"):
         text("h1", "Where is something missing?")
-        button("Locate", lambda: start(desk, lambda: desk.work("locate")), "" if asked else "main", off=busy(desk))
+        start_button(desk, "Locate", "locate", "" if asked else "main")
     text("p", "For each place in the model we estimate the force, flow or signal that would close the gap.", "lead")
     ended(desk)
     if answer is not None and not asked:

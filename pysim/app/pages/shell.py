@@ -7,6 +7,7 @@ from functools import partial
 
 from nicegui import ui
 
+from pysim.app.answers import STEPS, history
 from pysim.app.desk import Desk
 from pysim.app.jobs import FAILED
 from pysim.app.live import live
@@ -192,7 +193,8 @@ def _states(desk: Desk) -> list[tuple[str, bool]]:
     first = "" if located is None else str(located.data["missing"][0]["slot"])
     best = "" if ranked is None else best_of(ranked)
     verdict = best if whole is None else str(whole.data["verdict"])
-    last = "" if now is None or not settings.added else f"{_rms(settings.added[-1], now.data['error'])} × noise"
+    step = "refit" if now is None else history(now, settings.added)[-1]["step"]
+    last = "" if now is None or step in STEPS else f"{_rms(step, now.data['error'])} × noise"
     return [
         (counted(len(check.records), "record") if check else "drop your logs", check is not None),
         _prepared(desk),

@@ -2,6 +2,7 @@
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from pysim import present
-from pysim.app.answers import Answers, history
+from pysim.app.answers import Answers, current, history
 from pysim.app.jobs import ANSWER, RECORDS
 from pysim.app.project import Project
 from pysim.app.records import compared_overlay, decimated, measured_overlay, stage_keys, window
@@ -42,6 +43,7 @@ def test_answers_are_those_of_the_data_and_model_as_they_are(project: Project) -
     assert Answers.of(project).with_effects(("toy.twin",)) is None
     assert [step["step"] for step in history(answer, ())] == ["prior", "refit"]
     assert [step["fit"] for step in history(answer, answer.added)] == [8.1, 4.2, 1.0]
+    assert [current(answer, added)["step"] for added in ((), answer.added)] == ["refit", "toy.offset"]
     project.change(model="Another")
     assert Answers.of(project).all == ()
 
@@ -66,6 +68,29 @@ def test_what_is_located_belongs_to_the_model_that_was_asked_about(project: Proj
         shown = found.with_effects(("toy.offset",))  # a law may stand at its end, which is no model of the user
         assert shown is not None
         assert shown.job.work.kind == "diagnose"
+
+
+@pytest.mark.parametrize(
+    ("kind", "steps"), [("diagnose", ["prior", "refit", "force: h(v)"]), ("locate", ["prior", "refit"])]
+)
+def test_a_law_that_was_learned_is_a_step_where_it_was_added(project: Project, kind: str, steps: list[str]) -> None:
+    """Find adds it to the model; Locate only asks what it would do. A ranking afterwards takes it from nobody."""
+    folder = project.results("diagnose")
+    found = found_offset()
+    learned = replace(found, effects=(), history=(*found.history[:2], replace(found.history[2], step="force: h(v)")))
+    (folder / ANSWER).write_text(json.dumps(present.data(learned)))
+    write_stages(folder / RECORDS, learned.history)
+    head = json.loads((folder / "job.json").read_text())
+    (folder / "job.json").write_text(json.dumps(head | {"work": head["work"] | {"name": kind}}))
+    ranked = project.results("rank")
+    ranked.mkdir()
+    (ranked / ANSWER).write_text(json.dumps(present.data(replace(learned, history=found.history[:2]))))
+    write_stages(ranked / RECORDS, found.history[:2])
+    (ranked / "job.json").write_text(json.dumps(head | {"work": head["work"] | {"name": "rank"}, "ended": 0.5}))
+    answer = Answers.of(project).with_effects(())
+    assert answer is not None
+    assert [step["step"] for step in history(answer, ())] == steps
+    assert (answer.last is answer.base) == (len(steps) == 2)
 
 
 @pytest.mark.parametrize("way", ["an older form of the records", "an older form of the answer", "cut short"])
