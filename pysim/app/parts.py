@@ -64,7 +64,7 @@ class Sliders(Element, component=str(_STATIC / "sliders.js")):
     """Parameters with a number, a slider and a tick each.
 
     Args:
-        rows: `name`, `about`, `value`, `unit`, `min`, `max`, `slides` (whether it has both), and `fitted`.
+        rows: `name`, `about`, `value`, `now` (fitted, or None), `unit`, `min`, `max`, `slides` (it has both), `fitted`.
         on_move: gets the name, the value, and whether it was let go.
         on_fit: gets the name, and whether a fit may change it.
         on_bound: gets the name, "min" or "max", and the value.

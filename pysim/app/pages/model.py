@@ -9,6 +9,7 @@ from typing import Any
 
 from nicegui import background_tasks
 
+from pysim.app.answers import current
 from pysim.app.description import BEGINS, begin_logs, begins, read_description
 from pysim.app.desk import Desk
 from pysim.app.live import live
@@ -67,11 +68,22 @@ class _Follows:
             self._sliders = Sliders(self._rows(), self._moved, self._fit, self._bound)
             with box("row"):
                 button("All as the model has them", lambda: self._desk.set_values({}, bounds=()), "small")
+                live(lambda: self._desk.version, self._fitted, "row")
         with card("Initial states"), box("row"):
             text("span", "The logs begin")
             live(lambda: self._desk.version, self._beginning)  # a choice may be undone at once
         self._known, self._values, self._shown = self._ends(), self._all(), -1
         self._ask()
+
+    def _fitted(self) -> None:
+        """What the fitted model has beside the rows, and a button that lets fits begin at its values."""
+        found, added = _fitted_now(self._desk), self._desk.project.settings().added
+        if found:
+            own = {name: value for name, value in found.items() if name in self._all()}
+            more = [f"{name} = {value:.4g}" for name, value in found.items() if name not in own]
+            button("Take over the fitted values", lambda: self._desk.keep(own), "small")
+            model = f"of the model with {' and '.join(added)}" if added else "of the refitted model"
+            text("span", f"Fitted values are those {model}{': ' * bool(more)}{', '.join(more)}.", "small")
 
     def _beginning(self) -> None:
         now = begins(read_description(self._desk.project.description))
@@ -100,7 +112,7 @@ class _Follows:
 
     def _rows(self) -> list[dict[str, Any]]:
         """Name, value, bounds, unit, and whether it is fitted."""
-        set_, settings = self._desk.project.values(), self._desk.project.settings()
+        set_, settings, now = self._desk.project.values(), self._desk.project.settings(), _fitted_now(self._desk)
         fitted = settings.free or (*suggested(self._desk), *settings.ranges)
         written = replace(settings, free=()).ranges
         rows = []
@@ -108,7 +120,8 @@ class _Follows:
             if one["start"] is not None:
                 low, high = written.get(one["name"], (one["min"], one["max"]))
                 own = {"value": set_.get(one["name"], one["start"]), "fitted": one["name"] in fitted}
-                rows.append({**one, **own, "min": low, "max": high, "slides": None not in (low, high)})
+                own |= {"now": now.get(one["name"]), "slides": None not in (low, high)}
+                rows.append({**one, **own, "min": low, "max": high})
         return rows
 
     def _begin(self, words: str) -> None:
@@ -196,6 +209,14 @@ class _Follows:
         else:
             lines = [k for k, one in enumerate(figure["data"]) if one["legendgroup"] != "measured"]
             self._chart.follow([figure["data"][k]["y"] for k in lines], lines, move)
+
+
+def _fitted_now(desk: Desk) -> dict[str, float]:
+    """Parameters of the model as it is now, with what was added -> fitted value; none where nothing was fitted."""
+    added = desk.project.settings().added
+    answer = desk.answers.with_effects(added)
+    estimates = () if answer is None else current(answer, added)["estimates"]
+    return {one["name"]: one["value"] for one in estimates if "@" not in one["name"]}
 
 
 def suggested(desk: Desk) -> tuple[str, ...]:

@@ -8,13 +8,14 @@ export default {
   template: `
     <div class="table-scroll"><table class="table sliders">
       <caption class="unseen">Parameters</caption>
-      <thead><tr><th v-for="name in ['parameter', 'value', 'slider', 'unit', 'min', 'max', 'fitted']" :key="name" scope="col">{{ name }}</th></tr></thead>
+      <thead><tr><th v-for="name in heads" :key="name" scope="col">{{ name }}</th></tr></thead>
       <tbody><tr v-for="row in rows" :key="row.name">
         <td class="words"><b>{{ row.name }}</b> <span class="small">{{ row.about }}</span></td>
         <td><Entry needed type="number" step="any" class="field" :aria-label="'value of ' + row.name" :value="shown(row)" :stamp="stamp"
                    @put="(words) => move(row, Number(words), true)" /></td>
         <td><input v-if="row.slides" type="range" min="0" :max="steps" :aria-label="'slider of ' + row.name" :value="place(row)"
                    :aria-valuetext="shown(row) + ' ' + row.unit" @input="slid(row, $event, false)" @change="slid(row, $event, true)" /></td>
+        <td v-if="fits" class="number">{{ row.now == null ? "" : Number(row.now.toPrecision(4)) }}</td>
         <td>{{ row.unit }}</td>
         <td v-for="end in ['min', 'max']" :key="end"><Entry needed type="number" step="any" class="field bound" :aria-label="end + ' of ' + row.name"
               :value="row[end]" :stamp="stamp" @put="(words) => $emit('bound', { name: row.name, end, value: Number(words) })" /></td>
@@ -27,6 +28,14 @@ export default {
   emits: ["move", "fit", "bound"],
   data() {
     return { steps: STEPS, values: this.told(), stamp: 0 };
+  },
+  computed: {
+    fits() {
+      return this.rows.some((row) => row.now != null);
+    },
+    heads() {
+      return ["parameter", "begins at", "slider", ...(this.fits ? ["fitted value"] : []), "unit", "min", "max", "is fitted"];
+    },
   },
   watch: {
     rows: {

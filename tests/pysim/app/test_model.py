@@ -1,18 +1,21 @@
 """The page of parameters: every curve follows a slider, the last move wins, and where it is let go is kept."""
 
+import json
 from pathlib import Path
 
 import numpy as np
 import pytest
 
+from pysim import present
 from pysim.app.followed import Followed
-from pysim.app.jobs import works
+from pysim.app.jobs import ANSWER, RECORDS, Job, _write_job, works
 from pysim.app.project import Project
-from pysim.io import in_model_units
+from pysim.io import in_model_units, write_stages
 from pysim.types import BadInput
 from pysim.workflow import data_of, model_of
 from tests.pysim.app.browser import Show, Shown, Tab, artefacts
 from tests.pysim.app.made import rubbing
+from tests.pysim.diagnosis_answer import found_offset
 
 MOVES = 20
 
@@ -87,4 +90,33 @@ def test_every_curve_follows_a_slider_and_what_is_let_go_is_kept(shown: Shown, s
     tab.page.wait_for_function(f"Number(document.querySelector('.chart').dataset.move) > {MOVES + 4}")
     assert chart.evaluate(curve) == pytest.approx(before)
     assert project.values() == {}
+    assert tab.errors == []
+
+
+def test_fitted_values_stand_beside_those_where_fits_begin_and_are_taken_over(
+    shown: Shown, show: Show, project: Project
+) -> None:
+    """The toy's diagnosis as if the project had run it: refitted, then with an offset."""
+    folder = project.results("diagnose")
+    folder.mkdir(parents=True)
+    (folder / ANSWER).write_text(json.dumps(present.data(found_offset())))
+    write_stages(folder / RECORDS, found_offset().history)
+    project.change(added=("toy.offset",))
+    _write_job(Job(works(project)["diagnose"], "done", 1.0, 2.0, project.fingerprint()), folder)
+    tab = Tab(shown, show(project.folder), artefacts())
+    tab.see("effects that fit")
+    tab.go("Model")
+    tab.see("Fitted values are those of the model with toy.offset: F_o = 0.4.")
+    fitted = """() => [...document.querySelectorAll(".sliders tbody tr")].map((row) =>
+        [row.querySelector("b").textContent, row.querySelector("td.number").textContent])"""
+    assert dict(tab.page.evaluate(fitted)) == {"m": "1", "d": "1.5", "k": "0.75"}
+    assert tab.page.get_by_label("value of k").input_value() == "20"
+    tab.shot("model-fitted")
+    project.change(added=())  # undone: those of the refitted model
+    tab.page.reload()
+    tab.see("Fitted values are those of the refitted model.")
+    assert dict(tab.page.evaluate(fitted)) == {"m": "2", "d": "1", "k": "3"}
+    tab.press("Take over the fitted values")
+    tab.until(lambda: project.values() == {"m": 2.0, "d": 1.0, "k": 3.0})
+    tab.until(lambda: tab.page.get_by_label("value of k").input_value() == "3")
     assert tab.errors == []
