@@ -153,13 +153,18 @@ def moved(steps: Sequence[Mapping[str, Any]], number: int, by: int) -> list[Mapp
     return others
 
 
-BEGINS = {"near rest": None, "at rest": "rest", "anywhere, estimated": "estimate"}  # words, and `initial` of a record
+BEGINS = {  # words -> `initial` of a record, and what it means
+    "near rest": (None, "Where each log begins is estimated, and expected close to the model at rest."),
+    "at rest": ("rest", "Each log begins where the model comes to rest at the first value of its inputs."),
+    "as the model says": ("model", "Each log begins at the start values that the model gives its states."),
+    "anywhere, estimated": ("estimate", "Where each log begins is estimated from the log alone."),
+}
 
 
 def begins(content: Mapping[str, Any]) -> str:
     """How the logs begin, one of BEGINS; "" where they differ."""
     found = {record.get("initial") for record in content["records"]}
-    return next((words for words, one in BEGINS.items() if found == {one}), "")
+    return next((words for words, (one, _) in BEGINS.items() if found == {one}), "")
 
 
 def begin_logs(content: dict[str, Any], words: str) -> None:
@@ -171,8 +176,8 @@ def begin_logs(content: dict[str, Any], words: str) -> None:
     for record in content["records"]:
         if record.get("kind") != RESPONSE_TABLE.name:
             record.pop("initial", None)
-            if BEGINS[words] is not None:
-                record["initial"] = BEGINS[words]
+            if (initial := BEGINS[words][0]) is not None:
+                record["initial"] = initial
 
 
 def leave_column_out(content: dict[str, Any], signal: str) -> None:

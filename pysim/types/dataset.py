@@ -45,7 +45,7 @@ class MeasuredSignal:
 
 
 USES = ("fit", "validate", "test")  # fitted; used to choose between models; held out, which is only reported
-INITIAL = ("rest", "estimate")  # what a record may say of the plant at its first sample
+INITIAL = ("rest", "estimate", "model")  # what a record may say of the plant at its first sample
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ class MeasuredRecord:
         frequency: Hz, of a stepped sine; None for all else.
         command: name of the input that the three speak of; empty where a log has several inputs and does not say.
         initial: what is known of the plant at a log's first sample. "rest": it stood still at the first input.
-            "estimate": nothing. None: it was near rest, as far as the data do not say otherwise.
+            "model": the model's start values hold. "estimate": nothing. None: near rest, as far as the data agree.
         begin: s, of a log's first row on a clock that all records share, so that slow drift can be seen: then the
             model's `time` is this clock. None where not known.
     """

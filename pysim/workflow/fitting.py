@@ -62,7 +62,8 @@ def fit_problem(
         outputs: to compare; all that are measured by default.
         reference_hz: whose gain counts as 0 dB in responses; None for absolute gains.
         initial: of the model at each log's first sample: "rest", as its equations come to it at the first input;
-            "estimate", from each log; state -> value; None as the data say, and near rest where they say nothing.
+            "estimate", from each log; "model", as its start values say; state -> value; None as the data say, else
+            near rest.
         nothing_free: the model is only compared as it is.
     Raises:
         BadInput: no parameter to fit, a start or bounds of one that is not fitted, logs in none of which an input

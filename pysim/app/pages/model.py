@@ -20,12 +20,6 @@ from pysim.app.records import followed_overlay
 from pysim.app.worker import Ended
 from pysim.types import BadInput
 
-_BEGINNING = {
-    "near rest": "Where each log begins is estimated, and expected close to the model at rest.",
-    "at rest": "Each log begins where the model comes to rest at the first value of its inputs.",
-    "anywhere, estimated": "Where each log begins is estimated from the log alone.",
-}
-
 
 def model_page(desk: Desk) -> None:
     """Parameters and curves."""
@@ -89,7 +83,7 @@ class _Follows:
         now = begins(read_description(self._desk.project.description))
         with box("form").style("width: 220px"):
             Choice("how the logs begin", [*BEGINS] if now else ["", *BEGINS], now, self._begin)
-        text("span", _BEGINNING.get(now, "The logs differ."), "small")
+        text("span", BEGINS[now][1] if now else "The logs differ.", "small")
 
     def told(self) -> None:
         """What is in the project now, though another tab, or undo, has written it."""

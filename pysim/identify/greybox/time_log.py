@@ -174,8 +174,8 @@ def time_logs(context: Context, records: Sequence[tuple[int, MeasuredRecord]]) -
 
 
 def _initial(context: Context, record: MeasuredRecord) -> str:
-    """What is known of the plant's state at a log's first sample; "rest" if start values of states are parameters."""
-    started = record.source in context.started or None in context.started
+    """What is known of the plant's state at a log's first sample; "rest" if the model's start values hold."""
+    started = record.initial == "model" or record.source in context.started or None in context.started
     return "rest" if started else record.initial or context.treatment.initial
 
 
@@ -186,7 +186,7 @@ def _log(context: Context, record: MeasuredRecord, index: int) -> TimeLog:
     measured, start, rest = kept_columns(data, outputs), float(data.time[0]), context.treatment.rest
     later = 0.0 if record.begin is None else record.begin - start
     commands, begin = {}, start
-    started = record.source in context.started or None in context.started
+    started = record.initial == "model" or record.source in context.started or None in context.started
     own_start = context.first_value
     for column in columns:
         name, signal = context.variable(column), logged_command(record, column, context.dataset.signal(column).hold)

@@ -77,6 +77,11 @@ def test_every_curve_follows_a_slider_and_what_is_let_go_is_kept(shown: Shown, s
     tab.until(lambda: project.settings().ranges == {"k": (1.0, 300.0)})
     tab.until(lambda: 100 < int(tab.page.get_by_label("slider of k").input_value()) < 900)  # 100 is no longer its max
     assert "--bounds k=1.0:300.0" in " ".join(works(project)["compare"].words)
+    tab.page.get_by_label("how the logs begin").select_option("as the model says")
+    tab.until(lambda: {record.initial for record in data_of(project.data).records} == {"model"})
+    tab.see("at the start values that the model gives its states")
+    tab.page.keyboard.press("Control+z")
+    tab.until(lambda: {record.initial for record in data_of(project.data).records} == {None})
     tab.page.get_by_label("how the logs begin").select_option("anywhere, estimated")
     tab.until(lambda: {record.initial for record in data_of(project.data).records} == {"estimate"})
     tab.page.keyboard.press("Control+z")

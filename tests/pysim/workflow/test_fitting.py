@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from pysim.identify.greybox import Simulation, Tie, fit
-from pysim.simulate import Esdirk
-from pysim.types import BadInput, FitOutcome, Record
+from pysim.simulate import Esdirk, Rodas, simulate
+from pysim.types import BadInput, Experiment, FitOutcome, Record, Signal
 from pysim.workflow import beginning, fit_problem, fitted, model_of
 from tests.toy import library, measured
 
@@ -76,3 +76,22 @@ def test_a_search_that_ends_among_errors_of_the_integration_goes_on_with_a_finer
     assert first.outcome is FitOutcome.STALLED
     assert again.misfit < first.misfit
     assert [one.start for one in again.estimates] == [one.start for one in first.estimates]
+
+
+def test_a_log_may_begin_where_the_start_values_of_the_model_say() -> None:
+    """The mass lies at 0 when it is pushed: at rest under the push it would lie at 6/20 m, and would not swing."""
+    times, knots = np.arange(0.0, 8.0, 0.02), np.arange(0.0, 8.1, 0.5)
+    push = Signal.through(knots, 6 + np.sin(knots))
+    run = simulate(MASS, Experiment(times, ("x",), {"F": push}), solver=Rodas(rtol=1e-8, atol=1e-8))
+    read = run["x"] + 1e-3 * np.random.default_rng(5).standard_normal(times.size)
+    log = Record(times, np.column_stack([push.value(times), read]), ("F", "x"), ("N", "m"))
+    data = replace(DATA, records=(replace(DATA.records[0], data=log),))
+    left = {}
+    for initial in ("model", "rest"):
+        found = fit(fit_problem(MASS, [data], free=["m", "k"], initial=initial))
+        left[initial] = found.records[0].residual.values
+        if initial == "model":
+            for name, true in (("m", 1.0), ("k", 20.0)):
+                assert abs(found[name].value - true) < 4 * found[name].std
+    assert np.sqrt(np.mean(left["model"] ** 2)) == pytest.approx(1.0, rel=0.1)  # times the noise
+    assert np.sqrt(np.mean(left["rest"] ** 2)) > 20
