@@ -12,6 +12,7 @@ from typing import Any
 from nicegui import run
 
 from pysim.app.answers import Answer, Answers
+from pysim.app.disk import remove
 from pysim.app.history import History
 from pysim.app.jobs import DONE, STOPPED, Job, Runner, Work, adding, read_job, works
 from pysim.app.live import news
@@ -223,12 +224,20 @@ class Desk:
             self.changed()
 
     async def add_law(self, name: str, place: LawPlace, law: str, ranges: Mapping[str, Range]) -> None:
-        """Make a law an effect of the project, and try it beside those that the model has."""
+        """Make a law an effect of the project, and try it beside those that the model has.
+
+        One of that name is changed, and what was found with it as it was is removed.
+        """
         self._free_to_change()
         content = effect_class(name, place.slot, law, ranges, place.libraries)
         file = self.project.laws / f"{class_name_of(name)}.mo"
         if file.is_file() and file.read_text(encoding="utf-8") != content:
-            raise BadInput(f"there is another law {name} already; give this one another name")
+            self.runner.worker.end()  # it keeps the class
+            for job in map(read_job, (self.project.folder / "results").glob("*")):
+                if job is not None and name in job.work.effects:
+                    remove(self.project.results(job.work.name), self.project.uploads)
+            self.project.change(added=tuple(one for one in self.project.settings().added if one != name))
+            self.history.begin_anew()
         file.parent.mkdir(exist_ok=True)
         write_file(file, content)
         self.model = await self._ask("model")

@@ -31,9 +31,8 @@ def _cells(project: Project) -> Iterator[tuple[str, str]]:
         lines.append(f"model = model.set(**{values!r})")
     named = [name for name in settings.free if name not in settings.ranges]
     if settings.free or settings.ranges:
-        ranges = {name: ends for name, ends in settings.ranges.items() if not settings.free or name in settings.free}
         names = [*map(repr, named)] if settings.free else ["*model.free_names"]
-        lines.append(f"model = model.free({', '.join([*names, f'**{ranges!r}'])})")
+        lines.append(f"model = model.free({', '.join([*names, f'**{settings.ranges!r}'])})")
     yield "The model, its values, and what a fit may change.", "\n".join([*lines, "model"])
     yield "How far the model is from the measurements.", "pysim.compare(model, data)"
     yield "The fit; `fit.warnings` says why not to believe it.", "fit = pysim.fit(model, data)\nfit"

@@ -42,8 +42,8 @@ class Writing:
         is_new, self._learned = learned != self._learned, learned
         self._chart = None
         if learned is not None:
-            over = learned["depends_on"] + (f" times {learned['factor']}" if learned["factor"] else "")
-            explains = f"A curve over {over} explains {100 * learned['share']:.1f} % of the misfit."
+            self._over = learned["depends_on"] + (f" times {learned['factor']}" if learned["factor"] else "")
+            explains = f"A curve over {self._over} explains {100 * learned['share']:.1f} % of the misfit."
             text("p", f"{explains} The band holds 95 percent.", "small")
             if len(learned["shape"]["argument"]) > 1:
                 self._chart = Chart(*self._figure(), height=280)
@@ -113,12 +113,15 @@ class Writing:
                     for name in self._ranges:
                         self._row(name)
                 if not self._followed:
-                    words = "No learned curve gives these values: they are guesses. Write those that you expect."
-                    text("p", words, "note")
+                    words = "No learned curve gives these values"
+                    if self._chart is not None:
+                        words = f"This law is not drawn over the learned curve, which is over {self._over} alone"
+                    text("p", f"{words}. Usual values are guesses: write those that you expect.", "note")
             with box("row"):
-                named = lambda name: setattr(self, "_name", name.strip())  # noqa: E731
+                named = partial(setattr, self, "_name")
                 Entry("name of the law", self._name, named).classes("field").style("width: 180px")
                 button("Add and refit", self._add, "main", off=busy(self._desk))
+                text("span", "The name of a law of yours changes that law.", "small")
 
     def _row(self, name: str) -> None:
         text("span", name, "mono")
@@ -134,5 +137,5 @@ class Writing:
         self._typed(self._law)
 
     async def _add(self) -> None:
-        await self._desk.add_law(self._name, self._place, self._law, self._ranges)
+        await self._desk.add_law(self._name.strip(), self._place, self._law, self._ranges)
         ui.navigate.to("/add")
