@@ -28,7 +28,7 @@ from pysim.app.pages.shell import shell
 from pysim.app.project import Project
 from pysim.app.recent import remember
 from pysim.app.records import MOST, Overlay, compared_overlay, measured_overlay
-from pysim.app.upload import Adopted, Batch, Limits, adopt
+from pysim.app.upload import Batch, Limits, adopt, replaces
 from pysim.io import counted
 from pysim.types import BadInput
 
@@ -36,6 +36,7 @@ _STATIC = Path(__file__).parent / "static"
 _LOOPBACK = ("127.0.0.1", "localhost", "::1")
 _ANY = ("0.0.0.0", "::", "")
 _TICK = 0.2  # s
+_REPLACES = "This data set takes the place of the one that is there, which is kept as an earlier one."
 _BROKE_OFF = "the drop broke off, or another one has begun since; drop it again"
 
 
@@ -219,7 +220,7 @@ def _routes(desk: Desk) -> None:
         return PlainTextResponse("kept")
 
     @app.post("/upload/{name}/done")
-    async def done(name: str, files: int) -> Response:
+    async def done(name: str, files: int, sure: bool = False) -> Response:
         batch = desk.batches.pop(name, None)
         if batch is None:
             return PlainTextResponse(_BROKE_OFF, 409)
@@ -231,15 +232,20 @@ def _routes(desk: Desk) -> None:
             return PlainTextResponse("wait until the running work has ended, or stop it; then drop it again", 409)
         desk.taking = True
         try:
+            if not sure and await run.io_bound(replaces, batch, desk.project):
+                desk.batches[name] = batch  # until that is answered
+                return PlainTextResponse(_REPLACES, 202)
             adopted = await run.io_bound(adopt, batch, desk.project)  # a large archive does not hold up the page
             if adopted is None:
                 return PlainTextResponse("the server is ending; start it again, then drop it again", 503)
-            _choose(desk.project, adopted)
+            settings = desk.project.settings()
+            libraries = tuple(dict.fromkeys((*settings.libraries, *adopted.libraries)))
+            desk.project.use_model(adopted.model or settings.model, libraries)
             desk.history.begin_anew()
-        except BadInput as error:
-            return PlainTextResponse(str(error), 422)
-        except OSError as error:
-            return PlainTextResponse(str(disk_trouble(error)), 507)
+        except (BadInput, OSError) as error:
+            batch.end()
+            trouble = error if isinstance(error, BadInput) else disk_trouble(error)
+            return PlainTextResponse(str(trouble), 422 if trouble is error else 507)
         finally:
             desk.taking = False
         if adopted.kind != "model":
@@ -292,13 +298,6 @@ def played(plan: Path) -> bytes:
     with tempfile.TemporaryDirectory() as place:
         write_commands(read_plan(plan), Path(place) / "next_test", logs="csv")
         return Path(shutil.make_archive(f"{place}/next_test", "zip", f"{place}/next_test")).read_bytes()
-
-
-def _choose(project: Project, adopted: Adopted) -> None:
-    """What was dropped is what is worked with from now on."""
-    settings = project.settings()
-    libraries = tuple(dict.fromkeys((*settings.libraries, *adopted.libraries)))
-    project.use_model(adopted.model or settings.model, libraries)
 
 
 def overlay_of(desk: Desk, of: str, record: int) -> Overlay | None:

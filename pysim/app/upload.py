@@ -48,7 +48,7 @@ class Batch:
     size: int = 0
     files: int = 0
     whole: int = 0  # of the files, those that have arrived to their last byte
-    _taken: dict[str, tuple[str, str]] = field(default_factory=dict)  # what same_file says -> name, and archive or ""
+    _taken: dict[str, str] = field(default_factory=dict)  # what same_file says -> name
 
     async def take(self, name: str, pieces: AsyncIterator[bytes], *, size: int) -> None:
         """One file, as it comes in. It gets its name once it is whole; of one that broke off nothing stays.
@@ -74,43 +74,33 @@ class Batch:
         finally:
             partial.unlink(missing_ok=True)
 
-    def target(self, name: str, archive: str = "") -> Path:
+    def target(self, name: str) -> Path:
         """Where a file of that name goes; its folders are made.
 
-        Args:
-            archive: that it is unpacked from, seen from the drop; "" where it was dropped itself.
         Raises:
             BadInput: a name that would leave the folder, that not every system keeps or that the drop has already,
                 or one file too many.
         """
         parts = _parts(name)
         bad = not parts or ".." in parts or parts[0] == "/" or PureWindowsPath(name).drive or "\0" in name
-        if bad or not name.isprintable() or any(map(_long, parts)) or len(parts) > 20:
+        long = any(len(part) > _LONGEST or len(part.encode()) > _BYTES for part in parts)  # no disk keeps it
+        if bad or long or not name.isprintable() or len(parts) > 20:
             raise BadInput(f"{name[:80]!r} is no name of a file below the dropped folder; rename it")
         if why := unusable_name("/".join(parts)):  # behind a colon Windows would lose the log in another file's stream
             raise BadInput(f"{name[:80]!r}: {why}; rename it")
         self.files += 1
         if self.files > self.limits.files:
             raise BadInput(f"more than {self.limits.files} files; drop at most {self.limits.words}")
-        self._occupy("/".join(parts), archive)
+        plain = "/".join(parts)
+        if before := self._taken.get(same_file(plain)):
+            raise BadInput(f"{plain} and {before} would be one file; rename one of them, or drop one at a time")
+        self._taken[same_file(plain)] = plain
         target = self.folder / self.name / Path(*parts)
         try:
             target.parent.mkdir(parents=True, exist_ok=True)
         except OSError as error:
             raise BadInput(f"{name}: cannot be kept ({error.strerror}); rename it") from error
         return target
-
-    def _occupy(self, name: str, archive: str) -> None:
-        """Keep a place for a file: no other of the drop is written over it."""
-        place = same_file(name)
-        if place in self._taken:
-            before, other = self._taken[place]
-            cure = "drop one archive at a time, or give each a folder"
-            if archive == other:
-                cure = f"rename one of them{', and pack it again' if archive else ''}"
-            one, two = (f"{n} of {a}" if a else n for n, a in ((name, archive), (before, other)))
-            raise BadInput(f"{one} and {two} would be one file; {cure}")
-        self._taken[place] = (name, archive)
 
     def count(self, size: int, name: str) -> None:
         """So many bytes more."""
@@ -140,7 +130,7 @@ class Batch:
                 if member.is_dir() or _hidden(_parts(member.filename)):
                     continue
                 name = (place.parent / member.filename).as_posix() if place.parent.parts else member.filename
-                target = self.target(name, place.as_posix())
+                target = self.target(name)
                 with archive.open(member) as source, target.open("wb") as file:
                     while piece := source.read(_PIECE):  # what the archive says of sizes is not believed
                         self.count(len(piece), member.filename)
@@ -155,6 +145,13 @@ class Adopted:
     text: str
     model: str = ""
     libraries: tuple[str, ...] = ()
+
+
+def replaces(batch: Batch, project: Project) -> bool:
+    """Whether a complete drop would take the place of the data set that is there; `BadInput` as of `adopt`."""
+    _sweep(batch.folder / batch.name)
+    batch.unpack()
+    return project.data.exists() and any((batch.folder / batch.name).rglob("dataset.toml"))
 
 
 def adopt(batch: Batch, project: Project) -> Adopted:
@@ -179,7 +176,10 @@ def adopt(batch: Batch, project: Project) -> Adopted:
             found = ", ".join(sorted({path.suffix or path.name for path in _files(root)})[:6]) or "nothing"
             taken = ", ".join(READERS)
             raise BadInput(f"no data set, no logs and no model in this: {found}; drop logs as {taken}")
-        data = _dataset(described, project) if described else _logs(root, logs, project)
+        if described:
+            data = Adopted("dataset", f"A data set was taken over{_kept(project.replace_data(described.parent))}")
+        else:
+            data = _logs(root, logs, project)
         return data if model is None else replace(model, kind=data.kind, text=f"{model.text}; {data.text}")
     finally:
         batch.end()
@@ -213,11 +213,6 @@ def _hidden(parts: Sequence[str]) -> bool:
     return any((part.startswith(".") and part != "..") or part == "__MACOSX" for part in parts)
 
 
-def _long(part: str) -> bool:
-    """Whether a disk cannot keep a name, or hardly."""
-    return len(part) > _LONGEST or len(part.encode()) > _BYTES
-
-
 def _parts(name: str) -> list[str]:
     """Folders and file of a name, whatever the system that wrote it."""
     return [part for part in PurePosixPath(name.replace("\\", "/")).parts if part != "."]
@@ -230,11 +225,6 @@ def _described(descriptions: Sequence[Path]) -> Path | None:
     for one in descriptions:
         refuse_outside(one)
     return next(iter(descriptions), None)
-
-
-def _dataset(described: Path, project: Project) -> Adopted:
-    kept = project.replace_data(described.parent)
-    return Adopted("dataset", f"A data set was taken over{_kept(kept)}")
 
 
 def _kept(place: str) -> str:

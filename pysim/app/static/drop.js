@@ -19,7 +19,7 @@ const send = (method, url, body, progress) =>
     const request = new XMLHttpRequest();
     request.open(method, url);
     request.upload.onprogress = (event) => progress?.(event.loaded);
-    request.onload = () => done({ ok: request.status < 300, text: request.responseText });
+    request.onload = () => done({ ok: request.status < 300, asks: request.status === 202, text: request.responseText });
     request.onerror = () => done({ ok: false, text: "the file cannot be read, or pysim app does not run any more; drop it again" });
     request.send(body);
   });
@@ -28,11 +28,15 @@ export default {
   template: `
     <div class="drop" :class="{ over, busy }" @dragover.prevent="over = true" @dragleave="over = false" @drop.prevent="dropped">
       <div class="drop-words" aria-live="polite">
-        <div class="drop-title">{{ busy ? state : title }}</div>
-        <div class="drop-hint" v-if="!busy">{{ hint }}</div>
-        <div class="bar" v-if="busy" role="progressbar" :aria-valuenow="percent"><i :style="{ width: percent + '%' }"></i></div>
+        <div class="drop-title">{{ question || (busy ? state : title) }}</div>
+        <div class="drop-hint" v-if="!busy && !question">{{ hint }}</div>
+        <div class="bar" v-if="busy && !question" role="progressbar" :aria-valuenow="percent"><i :style="{ width: percent + '%' }"></i></div>
       </div>
-      <div class="drop-buttons" v-if="!busy">
+      <div class="drop-buttons" v-if="question">
+        <button type="button" class="button main" @click="answered(true)">Replace it</button>
+        <button type="button" class="button" @click="answered(false)">Keep the one that is there</button>
+      </div>
+      <div class="drop-buttons" v-else-if="!busy">
         <button type="button" class="button" @click="$refs.folder.click()">Choose a folder</button>
         <button type="button" class="button" @click="$refs.files.click()">Choose files</button>
       </div>
@@ -40,7 +44,7 @@ export default {
       <input ref="folder" class="drop-input" type="file" webkitdirectory tabindex="-1" aria-label="folder" @change="chosen" />
     </div>`,
   props: { title: String, hint: String, bytes: Number, files: Number, limit: String },
-  data: () => ({ over: false, busy: false, state: "", percent: 0 }),
+  data: () => ({ over: false, busy: false, state: "", percent: 0, question: "" }),
   methods: {
     async dropped(event) {
       this.over = false;
@@ -79,6 +83,13 @@ export default {
       if (answer.ok) {
         this.state = "Reading";
         answer = await send("POST", `/upload/${begun.text}/done?files=${found.length}`);
+        if (answer.asks) {
+          this.question = answer.text;
+          const sure = await new Promise((told) => (this.answered = told));
+          this.question = "";
+          answer = { ok: true, text: "The data set that is there was kept" };
+          if (sure) answer = await send("POST", `/upload/${begun.text}/done?files=${found.length}&sure=1`);
+        }
       }
       this.busy = false;
       this.$emit(answer.ok ? "taken" : "refused", answer.text);

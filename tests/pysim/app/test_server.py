@@ -165,7 +165,7 @@ def test_a_file_that_comes_twice_ends_the_drop_and_nothing_of_it_stays(show: Sho
     _, name = asked(address, "POST", "/upload")
     many = b"0,1\n" * 10**6  # comes in many pieces
     assert asked(address, "PUT", f"/upload/{name}?name=d/a.csv", many) == (200, "kept")
-    told = (422, "d/A.csv and d/a.csv would be one file; rename one of them")
+    told = (422, "d/A.csv and d/a.csv would be one file; rename one of them, or drop one at a time")
     assert asked(address, "PUT", f"/upload/{name}?name=d/A.csv", b"0,2\n") == told
     assert asked(address, "POST", f"/upload/{name}/done?files=1")[0] == 409
     assert list((tmp_path / "p/uploads").iterdir()) == []

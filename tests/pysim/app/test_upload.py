@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from pysim.app.project import Project
-from pysim.app.upload import Batch, Limits, adopt
+from pysim.app.upload import Batch, Limits, adopt, replaces
 from pysim.types import BadInput
 
 SENT = b"0,1\n0,1\n"
@@ -228,46 +228,27 @@ def test_a_name_that_is_a_folder_too_is_refused_in_a_sentence(project: Project) 
     assert list((project.folder / "uploads").iterdir()) == []
 
 
-TWO, RENAME = "drop one archive at a time, or give each a folder", "rename one of them"
-
-
 @pytest.mark.parametrize(
-    ("files", "words"),
+    ("files", "pair"),
     [
-        (
-            {"A.zip": {"0.5Hz.txt": b"0 1\n"}, "B.zip": {"0.5Hz.txt": b"0 2\n"}},
-            f"0.5Hz.txt of B.zip and 0.5Hz.txt of A.zip would be one file; {TWO}",
-        ),
-        (
-            {"A.zip": {"dataset.toml": TOML.encode()}, "B.zip": {"dataset.toml": b"?"}},
-            f"dataset.toml of B.zip and dataset.toml of A.zip would be one file; {TWO}",
-        ),
-        (
-            {"x/A.zip": {"s/a.csv": b"0,1\n"}, "x/s/a.csv": b"0,2\n"},
-            f"x/s/a.csv of x/A.zip and x/s/a.csv would be one file; {TWO}",
-        ),
-        (
-            {"A.zip": {"a.csv": b"0,1\n", "A.CSV": b"0,2\n"}},
-            f"A.CSV of A.zip and a.csv of A.zip would be one file; {RENAME}, and pack it again",
-        ),
-        (
-            {"A.zip": {"B.zip": b"?"}, "B.zip": {"a.csv": b"0,1\n"}},
-            f"B.zip of A.zip and B.zip would be one file; {TWO}",
-        ),
-        ({"A.zip": {"A.zip": b"?"}}, f"A.zip of A.zip and A.zip would be one file; {TWO}"),
-        (
-            {"Größe.csv": b"0,1\n", "gro\u0308ße.csv": b"0,2\n"},
-            f"gro\u0308ße.csv and Größe.csv would be one file; {RENAME}",
-        ),
-        ({"a/b.csv": b"0,1\n", "a\\.\\b.csv": b"0,2\n"}, f"a/b.csv and a/b.csv would be one file; {RENAME}"),
+        ({"A.zip": {"0.5Hz.txt": b"0 1\n"}, "B.zip": {"0.5Hz.txt": b"0 2\n"}}, "0.5Hz.txt and 0.5Hz.txt"),
+        ({"A.zip": {"dataset.toml": TOML.encode()}, "B.zip": {"dataset.toml": b"?"}}, "dataset.toml and dataset.toml"),
+        ({"x/A.zip": {"s/a.csv": b"0,1\n"}, "x/s/a.csv": b"0,2\n"}, "x/s/a.csv and x/s/a.csv"),
+        ({"A.zip": {"a.csv": b"0,1\n", "A.CSV": b"0,2\n"}}, "A.CSV and a.csv"),
+        ({"A.zip": {"B.zip": b"?"}, "B.zip": {"a.csv": b"0,1\n"}}, "B.zip and B.zip"),
+        ({"A.zip": {"A.zip": b"?"}}, "A.zip and A.zip"),
+        ({"Größe.csv": b"0,1\n", "gro\u0308ße.csv": b"0,2\n"}, "gro\u0308ße.csv and Größe.csv"),
+        ({"a/b.csv": b"0,1\n", "a\\.\\b.csv": b"0,2\n"}, "a/b.csv and a/b.csv"),
     ],
 )
 def test_no_file_of_a_drop_takes_the_place_of_another(
-    project: Project, files: dict[str, bytes | dict[str, bytes]], words: str
+    project: Project, files: dict[str, bytes | dict[str, bytes]], pair: str
 ) -> None:
     adopt(batch(project, {"before.csv": b"0,1\n"}), project)
     coming = {name: packed(own) if isinstance(own, dict) else own for name, own in files.items()}
-    with pytest.raises(BadInput, match=f"^{re.escape(words)}$"):
+    with pytest.raises(
+        BadInput, match=f"^{re.escape(pair)} would be one file; rename one of them, or drop one at a time$"
+    ):
         adopt(batch(project, coming), project)
     assert [path.name for path in project.data.iterdir()] == ["before.csv"]
 
@@ -290,3 +271,15 @@ def test_a_log_that_comes_later_lies_beside_those_that_are_there(project: Projec
     project.replace_data(None)
     assert not project.data.exists()
     assert adopt(batch(project, {"c.csv": b"0,1\n"}), project).text.startswith("1 log without")
+
+
+@pytest.mark.parametrize("as_zip", [False, True])
+def test_only_a_data_set_takes_the_place_of_another(project: Project, as_zip: bool) -> None:
+    described = {"bench/dataset.toml": TOML.encode(), "bench/a.txt": b"0 1\n"}
+    files = {"bench.zip": packed(described)} if as_zip else described
+    assert not replaces(batch(project, files), project)  # nothing is there
+    adopt(batch(project, described), project)
+    again = batch(project, files)
+    assert replaces(again, project)
+    assert adopt(again, project).kind == "dataset"
+    assert not replaces(batch(project, {"b.txt": b"0 1\n", "__MACOSX/dataset.toml": b"?"}), project)  # logs are added

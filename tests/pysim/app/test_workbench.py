@@ -193,6 +193,13 @@ def test_a_data_set_that_another_took_the_place_of_is_brought_back(
     before = {path.name: path.read_bytes() for path in (tmp_path / "project/data").iterdir()}
     (dropped / "dataset.toml").write_text(described("first"))
     tab.drop("folder", dropped)
+    tab.see("This data set takes the place of the one that is there")
+    tab.shot("replace")
+    tab.press("Keep the one that is there")
+    tab.see("Drop a data set here")
+    assert {path.name: path.read_bytes() for path in (tmp_path / "project/data").iterdir()} == before
+    tab.drop("folder", dropped)
+    tab.press("Replace it")
     tab.see("1 record, 0 not fitted")
     tab.press("Bring back data-1")
     tab.see("2 records, 0 not fitted")
