@@ -1,15 +1,22 @@
 """The page Candidates in a real browser, on a ranking whose numbers are known."""
 
+import io
 import json
+import shutil
+import zipfile
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
-from pysim.app.project import Project
+from pysim.app.project import Project, Settings
+from pysim.bench import read_plan
+from pysim.io import write_dataset
+from tests.known_answers.plants import PLANTS
 from tests.pysim.app.browser import Show, Shown, Tab, artefacts
 from tests.pysim.app.made import description
+from tests.pysim.diagnosis.plants import measured
 
 EMPTY: dict[str, Any] = {key: [] for key in ("added", "confusable", "error", "missing", "notes")}
 
@@ -76,4 +83,43 @@ def test_its_numbers_are_to_be_seen_on_a_narrow_screen(width: int, shown: Shown,
         assert place["y"] >= name["y"] + name["height"]
     tab.page.get_by_text("F_c 0.4").first.wait_for()
     tab.shot(f"candidates-{width}")
+    assert tab.errors == []
+
+
+@pytest.mark.slow
+def test_a_tie_comes_with_the_test_that_separates_it_and_its_command(shown: Shown, show: Show, tmp_path: Path) -> None:
+    """1.5 s of a mass that rubs: friction explains the log, and so does a constant force."""
+    plant, project = PLANTS["mass"], Project.at(tmp_path / "project")
+    rubs, truth = {"mass.friction": {"F_c": 0.2}}, {"m": 1.0, "d": 1.9, "k": 40.0}
+    write_dataset(project.data, measured("mass", rubs, truth, fit=(1,), validate=(), length=1.5))
+    project.models.mkdir()
+    shutil.copy(plant.library, project.models)
+    project.save(Settings(model=plant.model, libraries=(f"model/{plant.library.name}",)))
+    tab = Tab(shown, show(project.folder), artefacts())
+    tab.see("effects that fit")
+    tab.go("Candidates")
+    tab.page.get_by_role("button", name="Find what is missing", disabled=False).click()
+    tab.see("Undo mass.friction")  # the page Add
+    tab.go("Candidates")
+    tab.see("These data cannot tell mass.friction and mass.bias apart.")
+    tied = tab.page.locator(".candidate.tied h3 + .chip").all_text_contents()
+    assert sorted(tied) == ["mass.bias", "mass.friction"]
+    tab.see("It separates mass.friction from mass.bias")
+    tab.shot("candidates-tie")
+    with tab.page.expect_download() as download:
+        tab.page.get_by_role("link", name="Download its commands as CSV").click()
+    assert download.value.suggested_filename == "next_test.zip"
+    (plan,) = (project.folder / "results/diagnose").rglob("next_test.toml")
+    (sine,) = read_plan(plan).tests
+    ((offset, amplitude),) = sine.points
+    tab.see(f"a sine of {sine.frequencies[0]:.3g} Hz and {amplitude:.3g} N around {offset:.3g} N")
+    with zipfile.ZipFile(io.BytesIO(Path(download.value.path()).read_bytes())) as archive:
+        assert any(name.endswith("dataset.toml") for name in archive.namelist())
+        (run,) = (name for name in archive.namelist() if name.endswith("Hz.csv"))
+        head, *rows = archive.read(run).decode().splitlines()
+    assert "F" in head
+    values = np.array([[float(one) for one in row.split(",")] for row in rows])
+    assert np.allclose(np.diff(values[:, 0]), values[1, 0] - values[0, 0], rtol=1e-6)
+    ends = values[:, 1].min(), values[:, 1].max()  # it begins and ends at 0
+    assert ends == pytest.approx((offset - amplitude, offset + amplitude), rel=0.02)
     assert tab.errors == []
