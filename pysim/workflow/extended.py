@@ -44,8 +44,8 @@ def write_extended(found: Diagnosis, parts: SessionParts, folder: Path) -> dict[
         files = {"modelica": folder / f"{name}.mo", "fmu": fmu, **{law.stem: law for law in laws}}
         about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."
     else:
-        values = ", ".join(f"{name} = {value!r}" for name, value in parts.overrides.items())
-        held = f"They hold with what was set: {values}." if values else ""
+        set_ = ", ".join(f"{name} = {value!r}" for name, value in parts.overrides.items())
+        held = f"They hold with what was set: {set_}." if set_ else ""
         about = f"{parts.model_name}, refitted to data set {parts.dataset.name}. {held}"
     for k, law in enumerate(law for law in found.learned if law.modelica):
         key = "learned" if k == 0 else f"learned_{k + 1}"

@@ -127,9 +127,9 @@ def _criteria(answer: Answer, added: Sequence[str]) -> None:
 
 def _parameters(answer: Answer, added: tuple[str, ...]) -> None:
     """Before and after, with 95 percent intervals."""
-    now = current(answer, added)
+    model = current(answer, added)
     before = {e["name"]: e for e in answer.base["estimates"]}
-    after = {} if now is answer.base else {e["name"]: e for e in now["estimates"]}
+    after = {} if model is answer.base else {e["name"]: e for e in model["estimates"]}
     names = list(dict.fromkeys([*before, *after]))
     if not names:
         return

@@ -65,6 +65,7 @@ def test_from_the_dropped_folder_to_the_downloaded_fmu(
         tab.page.locator(".candidate", has_text="toy.friction").get_by_role("button", name="Try").click()
         tab.see("Undo toy.friction", timeout=PATIENCE)
         _looked_at(tab, "add")
+        assert tab.page.get_by_text("Criteria of thesis").count() == 0  # they are for its pump alone
         numbers = tab.page.locator(".chart .annotation-text").all_text_contents()
         assert min(float(text) for text in numbers if text[:1].isdigit()) < 1.1  # nothing but noise is left
         tab.go("Locate")
