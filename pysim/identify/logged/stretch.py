@@ -102,7 +102,7 @@ class Stretch:
 
 
 def grow(log: Log, start: tuple[Wave, slice], fit: Fit) -> Stretch:
-    """Fit the wave, add neighbouring samples that are on it, and repeat; then cut off a ramp after and a hold before."""
+    """Fit the wave, add neighbouring samples that are on it, and repeat; then cut off ramp and hold at the ends."""
     wave, inside = start
     for _ in range(_ROUNDS):
         wave = _trimmed(log, inside, wave, fit)
