@@ -192,18 +192,19 @@ def _bode(desk: Desk, view: _View) -> None:
         side = stage["responses"][number]["simulated"] if number < len(stage["responses"]) else None
         if side is not None:
             models.append((key, words, side))
-    last = answer.last["responses"][number]
+    last, judged = answer.last["responses"][number], (desk.model or {}).get("is_thesis_pump")
     with card():
         with box("row end"):
             text("h2", "Frequency responses")
-            words, kind = ("passes", "good") if last["passes"] else ("beyond", "bad")
-            text("span", f"{words} Table 1.3", f"chip {kind}")
+            if judged:
+                words, kind = ("passes", "good") if last["passes"] else ("beyond", "bad")
+                text("span", f"{words} Table 1.3", f"chip {kind}")
         options = [(str(k), words) for k, words in enumerate(_points(tests, check.dataset))]
         segments(options, str(number), lambda key: _set(view, response=int(key)), "Operating point")
         if last["message"]:
             text("p", str(last["message"]), "note bad")
         Chart(bode_chart(one, models), f"Bode plot of {one['output']} to {one['input']}", height=440)
-        known = [d for d in last["deviations"] if d["value"] is not None]
+        known = [d for d in last["deviations"] if judged and d["value"] is not None]
         told = ", ".join(f"{d['name']} {d['value']:.2g} of {d['limit']:g} {d['unit']}" for d in known)
         text("p", f"{told}." if told else "", "small")
 

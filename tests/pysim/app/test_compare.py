@@ -3,6 +3,7 @@ file that holds two records."""
 
 import io
 import json
+import shutil
 from pathlib import Path
 from typing import Any
 
@@ -45,16 +46,16 @@ def project(tmp_path: Path) -> Path:
             np.savetxt(folder / f"data/{name}.txt", np.column_stack([time, offset + wave, offset + wave]), fmt="%.5f")
             text += RECORD.format(name=name, offset=offset, frequency=frequency)
     (folder / "data/dataset.toml").write_text(text)
-    answered(folder, [stage("prior", (1.0, 3.0)), stage("refit", (0.5, 2.5))])
+    answered(folder, [stage("prior", (1.0, 3.0)), stage("refit", (0.5, 2.5))], "HydraulicTestBench.Pump.FreeGreyBox")
     return folder
 
 
-def answered(folder: Path, stages: list[dict[str, Any]]) -> None:
+def answered(folder: Path, stages: list[dict[str, Any]], model: str = "") -> None:
     """Make a project of a folder with data, and these stages its only result."""
     from pysim.app.project import Project
 
     (folder / "results/compare").mkdir(parents=True)
-    (folder / "project.toml").write_text('model = ""\n')
+    (folder / "project.toml").write_text(f'model = "{model}"\n')
     time = np.arange(0, 4, 0.005)
     about = np.frombuffer(json.dumps({"form": 3, "stages": stages}).encode(), dtype=np.uint8)
     archive = io.BytesIO()
@@ -113,6 +114,17 @@ def test_a_bode_plot_stands_in_its_band_and_says_when_it_leaves_it(shown: Shown,
     assert out == pytest.approx([0, 2.5, 2.5])
     tab.page.get_by_text("Frequency responses").scroll_into_view_if_needed()
     tab.shot("bode")
+    assert tab.errors == []
+
+
+def test_only_the_thesis_pump_is_judged_by_its_limits(shown: Shown, show: Show, project: Path) -> None:
+    shutil.rmtree(project / "results")
+    answered(project, [stage("prior", (1.0, 3.0))])  # of no model of the thesis
+    tab = Tab(shown, show(project), artefacts())
+    tab.go("Compare")
+    tab.see("Frequency responses")
+    assert tab.page.locator(".chip", has_text="Table 1.3").count() == 0
+    assert tab.page.get_by_text("maximum magnitude deviation").count() == 0
     assert tab.errors == []
 
 
