@@ -1,4 +1,4 @@
-"""Doubt of a fit whose residuals follow each other, as they do behind a filter."""
+"""Covariance of a fit with autocorrelated residuals, such as those of filtered signals."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ Array = NDArray[np.float64]
 
 
 def correlation_length(residuals: Array, lengths: Sequence[int]) -> float:
-    """How many residuals in a row are worth one independent one, at least 1.
+    """Number of residuals per independent one, at least 1: sample size over effective sample size.
 
-    1 + 2 sum of the autocorrelation up to the lag where the sum of two neighbours turns negative (Geyer's initial
-    positive sequence, 1992); pairs never reach across tests.
+    1 + 2 sum of the autocorrelation, up to the lag where the sum of two neighbours turns negative (Geyer's initial
+    positive sequence, 1992). Products are formed within tests only.
 
     Args:
         residuals: (n,) in the order of time, test after test.
@@ -38,10 +38,10 @@ def score_covariance(slopes: Array, errors: Array, lengths: Sequence[int], lengt
 
     Args:
         slopes, errors: (n, p) and (n,), weighted as in the fit.
-        lengths: rows per test; no product reaches across tests.
-        length: of `correlation_length`; lags up to four times that are counted.
+        lengths: rows per test; products are formed within tests only.
+        length: from `correlation_length`; lags up to four times it are used.
     Returns:
-        scaled by n / (n - p length), for the freedom the fit itself took.
+        the covariance times n / (n - p length), which corrects for the estimated parameters.
     """
     n, p = slopes.shape
     lags = int(np.ceil(4 * length)) if length > 1 else 0

@@ -1,4 +1,4 @@
-"""Filters without delay, and slopes of noisy samples."""
+"""Zero-phase low-pass filter, and derivatives of noisy samples."""
 
 from __future__ import annotations
 
@@ -15,17 +15,17 @@ _UNEVEN = 1e-3  # largest deviation of a sampling interval from their mean, as a
 
 
 def zero_phase(time: Array, values: Array, cutoff_hz: float, *, order: int = 2) -> Array:
-    """Butterworth low-pass, run forward and then backward, so that nothing is delayed.
+    """Butterworth low-pass, run forward and then backward, so that there is no delay.
 
-    The gain of both passes together is 1/sqrt(2) at `cutoff_hz`: each pass is designed for a cutoff higher by
-    (sqrt(2) - 1)^(-1 / (2 order)). Before filtering, both ends are continued by their mirror image through the end
-    point; within `settling_time` of an end the result depends on that guess.
+    The gain of both passes together is 1/sqrt(2) at `cutoff_hz`: each pass has a cutoff that is higher by the factor
+    (sqrt(2) - 1)^(-1 / (2 order)). Before filtering, both ends are extended by their mirror image through the end
+    point; within `settling_time` of an end, the result depends on this extension.
 
     Args:
         time: (n_t,) s, evenly spaced.
         values: (n_t,) or (n_t, n_y).
         cutoff_hz: below half the sampling rate.
-        order: of one pass.
+        order: order of one pass.
     Raises:
         BadInput: uneven times, too few samples, or a cutoff that the sampling rate does not allow.
     Source: thesis Section 5.5 (a filter used forward and backward in time); the cutoff is not given there.
@@ -45,18 +45,18 @@ def zero_phase(time: Array, values: Array, cutoff_hz: float, *, order: int = 2) 
 
 
 def settling_time(cutoff_hz: float) -> float:
-    """How long the ends of a log disturb the filtered values, s: one and a half periods of the cutoff.
+    """Time in s over which the ends of a log disturb the filtered values: one and a half periods of the cutoff.
 
-    After that, 3e-4 of a jump at the end is left.
+    After that, the effect of a jump at the end has decayed to 3e-4.
     """
     return 1.5 / cutoff_hz
 
 
 def sampling_rate(time: Array) -> float:
-    """Samples per second, Hz.
+    """Sampling rate in Hz.
 
     Raises:
-        BadInput: fewer than ten samples, or spacing that is not even.
+        BadInput: fewer than ten samples, or uneven spacing.
     """
     if time.size < 10:
         raise BadInput(f"zero-phase filter: {time.size} samples are too few; give at least ten")
@@ -72,18 +72,18 @@ def sampling_rate(time: Array) -> float:
 
 
 def local_slope(time: Array, values: Array, *, half_width: int = 2, degree: int = 2) -> tuple[Array, Array, Array]:
-    """Value and slope of a polynomial through each sample's neighbours (Savitzky and Golay's rule, any spacing).
+    """Value and slope of a polynomial fitted to each sample's neighbours (Savitzky-Golay filter, any spacing).
 
-    Near the ends the nearest full window is used, off its middle.
+    Near the ends, the nearest full window is used.
 
     Args:
         time, values: (n,), n at least 2 half_width + 1.
-        half_width: neighbours on each side.
-        degree: of the polynomial, below 2 half_width + 1.
+        half_width: number of neighbours on each side.
+        degree: degree of the polynomial, below 2 half_width + 1.
     Returns:
         value (n,), slope (n,) per s, and the slope's standard deviation for samples with independent noise of 1, (n,).
     Raises:
-        BadInput: too few samples, or a degree the window cannot carry.
+        BadInput: too few samples, or a degree that is too large for the window.
     """
     width = 2 * half_width + 1
     if time.size < width or not 1 <= degree < width:

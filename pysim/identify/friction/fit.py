@@ -18,29 +18,29 @@ from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 
-# r from a step over tens of rad/s to one no sensor can tell from a jump; torques up to ten times Table 6.2
+# r: from a transition over tens of rad/s to one that no sensor resolves; torques: up to ten times those of Table 6.2
 FRICTION_BOUNDS: Mapping[str, tuple[float, float]] = MappingProxyType(
     {"r": (0.01, 1e3), "omega_0": (0.1, 200.0), "tau_c": (0.0, 500.0), "tau_s": (0.0, 500.0)}
 )
-_SIZES = np.array([10.0, 10.0, 10.0, 10.0])  # of the parameters, for the optimiser's steps
+_SIZES = np.array([10.0, 10.0, 10.0, 10.0])  # typical sizes of the parameters, for the optimiser's steps
 _STARTS = ((30.0, 3.0), (30.0, 20.0), (1.0, 10.0))  # r and omega_0
 
 
 @dataclass(frozen=True)
 class FrictionFit:
-    """Estimates with their doubt.
+    """Estimates with their intervals and covariance.
 
     Args:
         parameters: name -> estimate; r in s/rad, omega_0 in rad/s, torques in N.m.
-        intervals: name -> 95 percent interval; an end the data do not give is infinite (or 0 for r).
-        bounded: names of which the data give one end only: the estimate itself says nothing. It is then the value
-            nearest to that end which the data cannot tell from infinity (or 0).
-        covariance: (4, 4) of the parameters in the order of `FRICTION_NAMES`; zero for those `bounded`.
-        residuals: (n,) N.m, sample by sample, measured minus fitted.
-        effective: how many independent samples the residuals are worth, given how they follow each other.
-        at_bound: names whose estimate is stopped by a bound.
-        weighted: by the noise, or every sample alike as in Eq. 6.1.
-        samples: what was fitted, test by test.
+        intervals: name -> 95 percent interval; for r, an end that the data do not determine is infinite or 0.
+        bounded: names for which the data determine one end of the interval at most. The estimate is then the first
+            value on the way to the open end from which on the fit does not change any more.
+        covariance: (4, 4) of the parameters in the order of `FRICTION_NAMES`; zero for those in `bounded`.
+        residuals: (n,) N.m, measured minus fitted.
+        effective: effective sample size of the residuals.
+        at_bound: names of estimates at a bound.
+        weighted: whether samples were weighted by the noise; if not, all have the same weight, as in Eq. 6.1.
+        samples: the fitted samples, one set per test.
     """
 
     parameters: Mapping[str, float]
@@ -60,7 +60,7 @@ class FrictionFit:
 
     @property
     def quantile(self) -> float:
-        """Half of a 95 percent interval over the standard deviation: Student's, by the independent samples."""
+        """Half width of a 95 percent interval in standard deviations: Student's t at the effective sample size."""
         return _quantile(self.effective, len(FRICTION_NAMES) - len(self.bounded))
 
     @property
@@ -70,7 +70,7 @@ class FrictionFit:
 
     @property
     def blind_below(self) -> float:
-        """The slowest speed that was seen, rad/s; below it the curve is the law's, not the data's."""
+        """The lowest measured speed, rad/s; below it, the curve is an extrapolation of the law."""
         return float(min(np.abs(s.speed).min() for s in self.samples))
 
 
@@ -80,7 +80,7 @@ def _quantile(effective: float, free: int) -> float:
 
 @dataclass(frozen=True)
 class _Rows:
-    """All tests as one row of numbers; weight (n,) is one over the standard deviation, or one."""
+    """Samples of all tests in a row; weight (n,) is one over the standard deviation, or one."""
 
     speed: Array
     change: Array
@@ -89,11 +89,11 @@ class _Rows:
     lengths: tuple[int, ...]
 
     def errors(self, p: Array) -> Array:
-        """Weighted, (n,)."""
+        """Weighted errors, fitted minus measured, (n,)."""
         return self.weight * (mean_friction(p, self.speed, self.change) - self.torque)
 
     def slopes(self, p: Array) -> Array:
-        """Of the errors, (n, 4)."""
+        """Jacobian of the errors, (n, 4)."""
         return self.weight[:, None] * mean_slopes(p, self.speed, self.change)
 
 
@@ -105,16 +105,16 @@ def fit_friction(
 ) -> FrictionFit:
     """Fit the four parameters of Eq. 5.38.
 
-    Least squares from three starts. Filtered samples follow each other, so the covariance is that of correlated
-    residuals (a sandwich, see `correlated`). The steepness is judged by its likelihood profile, corrected alike:
-    where the misfit stays flat towards a bound, the data give the other end only (see `steepness`).
+    Least squares from three starts. Filtered samples are correlated, so the covariance is a sandwich estimator (see
+    `correlated`). The interval of the steepness r is from its profile likelihood, with the same correction. If the
+    profile stays flat towards a bound, the data determine the other end only (see `steepness`).
 
     Args:
-        samples: a set per test, each in the order of time.
-        weighted: by `sigma`; False takes every sample alike, thesis Eq. 6.1.
+        samples: one set per test, each in the order of time.
+        weighted: whether to weight samples by `sigma`; False gives all the same weight, thesis Eq. 6.1.
         bounds: name -> (low, high).
     Raises:
-        BadInput: fewer than ten samples, speeds of one size only, or bounds that are missing or the wrong way round.
+        BadInput: fewer than ten samples, all at nearly the same speed, or bounds that are missing or reversed.
     """
     rows, low, high = _rows(samples, weighted), *_limits(bounds)
     best = min((_solve(rows, np.array(s), low, high) for s in _starts(rows)), key=lambda found: found[1])
@@ -170,7 +170,7 @@ def _limits(bounds: Mapping[str, tuple[float, float]]) -> tuple[Array, Array]:
 
 
 def _starts(rows: _Rows) -> list[tuple[float, float, float, float]]:
-    """Torques by the fastest and the slowest tenth of the samples."""
+    """Start values, with the torques from the fastest and the slowest tenth of the samples."""
     size = np.abs(rows.speed)
     fast, slow = size >= np.quantile(size, 0.9), size <= np.quantile(size, 0.1)
     tau_c, tau_s = (max(float(np.median(np.abs(rows.torque[some]))), 0.1) for some in (fast, slow))

@@ -1,4 +1,4 @@
-"""Friction of a shaft over its speed: thesis Eq. 5.38, its slopes, and its mean over a change of speed."""
+"""Friction of a shaft over its speed: thesis Eq. 5.38, its derivatives, and its mean over a change of speed."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ Array = NDArray[np.float64]
 FRICTION_NAMES = ("r", "omega_0", "tau_c", "tau_s")
 FRICTION_UNITS = ("s/rad", "rad/s", "N.m", "N.m")
 
-# Three-point Gauss rule on [-1/2, 1/2]: exact for what varies with speed up to its fifth power
+# Three-point Gauss rule on [-1/2, 1/2]: exact for polynomials of the speed up to degree five
 _NODES = np.array([-0.5, 0.0, 0.5]) * np.sqrt(0.6)
 _SHARES = np.array([5.0, 8.0, 5.0]) / 18
 
@@ -28,7 +28,7 @@ def friction_torque(parameters: Array, speed: Array) -> Array:
 
 
 def friction_slopes(parameters: Array, speed: Array) -> Array:
-    """Its derivatives by the four parameters, (n, 4), in N.m per the parameter's unit."""
+    """Derivatives of `friction_torque` by the four parameters, (n, 4), in N.m per the parameter's unit."""
     r, omega_0, tau_c, tau_s = parameters
     step, fade = np.tanh(r * speed), np.exp(-np.abs(speed) / omega_0)
     by_r = speed * (1 - step**2) * (tau_c + (tau_s - tau_c) * fade)
@@ -37,7 +37,7 @@ def friction_slopes(parameters: Array, speed: Array) -> Array:
 
 
 def mean_friction(parameters: Array, speed: Array, change: Array) -> Array:
-    """Friction averaged over time while the speed runs evenly through `change` around `speed`, (n,) N.m."""
+    """Mean friction over time while the speed changes linearly by `change`, with the mean `speed`, (n,) N.m."""
     values = [friction_torque(parameters, speed + node * change) for node in _NODES]
     return np.tensordot(_SHARES, np.array(values), axes=1)
 

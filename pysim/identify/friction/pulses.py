@@ -1,4 +1,4 @@
-"""The inductive speed sensor: what its pulses make of a speed, and what can be read back from its log."""
+"""The inductive speed sensor: the speed that its pulses give, and the pulses that its log shows."""
 
 from __future__ import annotations
 
@@ -15,19 +15,19 @@ _NEWTON_STEPS = 8
 
 
 def pulse_times(time: Array, angle: Array, speed: Array, *, pulses: int = 10) -> Array:
-    """Instants of the rising edges, (n,) s.
+    """Times of the rising edges, (n,) s.
 
-    Metal is in front of the sensor where sin(pulses angle) > 0. Turning forward, the edge rises where that sine grows
-    through zero; turning backward, at the other end of each tooth. Between samples the angle is the cubic through
-    both ends' angles and speeds; a tooth that comes and goes again between two samples is not seen.
+    A tooth is in front of the sensor where sin(pulses angle) > 0. In forward rotation, the edge rises where this sine
+    increases through zero; in backward rotation, at the other end of each tooth. Between samples, the angle is the
+    cubic through both ends' angles and speeds. A tooth that comes and goes again between two samples is missed.
 
     Args:
-        time: (n_t,) s, increasing, some ten samples per pulse or more.
+        time: (n_t,) s, increasing, with about ten samples per pulse or more.
         angle, speed: (n_t,) rad and rad/s.
     Source: thesis Section 5.1, Fig. 5.4.
     """
     turns = pulses * angle / (2 * np.pi)
-    ahead, behind = np.ceil(turns) - 1, np.floor(turns - 0.5) + 1  # an edge right at a sample is still to come
+    ahead, behind = np.ceil(turns) - 1, np.floor(turns - 0.5) + 1  # an edge exactly at a sample counts as not passed
     forward = np.maximum(np.diff(ahead), 0).astype(int)
     backward = np.maximum(-np.diff(behind), 0).astype(int)
     count = forward + backward
@@ -38,7 +38,7 @@ def pulse_times(time: Array, angle: Array, speed: Array, *, pulses: int = 10) ->
 
 
 def _crossings(k: NDArray[np.int_], goal: Array, time: Array, angle: Array, speed: Array) -> Array:
-    """When the cubic of interval k reaches the goal, (n,) s; Newton's rule, kept inside the interval."""
+    """Times at which the cubic of interval k reaches the angle `goal`, (n,) s; Newton iteration inside the interval."""
     step = time[k + 1] - time[k]
     a, b = angle[k], angle[k + 1]
     slope_a, slope_b = speed[k] * step, speed[k + 1] * step
@@ -52,12 +52,12 @@ def _crossings(k: NDArray[np.int_], goal: Array, time: Array, angle: Array, spee
 
 
 def pulse_speed(edges: Array, logged: Array, direction: Array, *, pulses: int = 10) -> Array:
-    """What the sensor's speed reads at the times of a log, (n_t,) rad/s; zero before the second edge.
+    """The sensor's reading of the speed at the times of a log, (n_t,) rad/s; zero before the second edge.
 
     Args:
-        edges: (n,) s, instants of the rising edges, with whatever jitter they have.
-        logged: (n_t,) s.
-        direction: (n_t,) its sign is taken for that of the speed, zero for forward.
+        edges: (n,) s, times of the rising edges, jitter included.
+        logged: (n_t,) times of the log, s.
+        direction: (n_t,) sign of the speed; zero counts as forward.
     Source: thesis Eq. 5.1.
     """
     last = np.searchsorted(edges, logged, side="right") - 1
@@ -68,10 +68,10 @@ def pulse_speed(edges: Array, logged: Array, direction: Array, *, pulses: int = 
 
 @dataclass(frozen=True)
 class PulseIntervals:
-    """Times between edges as read back from a log: over [start, end] the mean speed is known, and nothing else.
+    """Intervals between edges, from a log; the mean speed over [start, end] is known.
 
-    start, end: (n,) s; speed: (n,) rad/s, signed as logged; whole: (n,) whether the logged sign stayed the same since
-    the interval's start, so that no reversal is inside; run: (n,) number of the stretch in one direction it is in.
+    start, end: (n,) s; speed: (n,) rad/s, signed as logged; whole: (n,) whether the logged sign is constant over the
+    interval, so that there is no reversal in it; run: (n,) number of the interval's stretch in one direction.
     """
 
     start: Array
@@ -84,15 +84,15 @@ class PulseIntervals:
 def pulse_intervals(time: Array, logged: Array, *, pulses: int = 10, noise: float = 0.0) -> PulseIntervals:
     """Find the edges in a log of the held speed.
 
-    The reading changes when an edge has come, and tells the time since the edge before: so both ends of the interval
-    are known, the last one to half a sample. Edges whose reading does not change the speed are not seen; their
-    intervals are missing, no others are wrong. More edges than samples leave the last one before each sample.
+    The reading changes after an edge, and its value is the time since the edge before. So both ends of the interval are
+    known, the last one to half a sample. An edge that does not change the reading is missed: its interval is missing,
+    and all others are right. If there are several edges between two samples, only the last one is found.
 
     Args:
         time: (n_t,) s.
         logged: (n_t,) rad/s, thesis Eq. 5.1.
-        noise: standard deviation of noise on the reading itself, rad/s; steps below seven of it are not seen, and
-            each reading is the mean between two steps.
+        noise: standard deviation of noise on the reading, rad/s; changes below seven times this are ignored, and
+            each reading is the mean between two changes.
     Raises:
         BadInput: fewer than five changes of the reading.
     """

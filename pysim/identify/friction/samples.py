@@ -1,4 +1,4 @@
-"""Friction torque and speed, point by point, from the torque balance of the shaft (thesis Eq. 5.41)."""
+"""Samples of friction torque and speed, from the torque balance of the shaft (thesis Eq. 5.41)."""
 
 from __future__ import annotations
 
@@ -14,19 +14,19 @@ from pysim.types import BadInput, sampling
 
 Array = NDArray[np.float64]
 
-SHORTEST = 0.05  # s; pulses are counted at least this long, or the timing noise of single ones rules the acceleration
-MOST_CHANGE = 1.5  # largest ratio of neighbouring speeds: beyond it the shaft may have stood still in between
-OVERSAMPLING = 6  # rows kept per period of the low-pass; three times what its band needs
+SHORTEST = 0.05  # s; shorter pulse intervals are joined, as their timing noise would dominate the acceleration
+MOST_CHANGE = 1.5  # largest ratio of neighbouring speeds; with a larger one, the shaft may have stopped in between
+OVERSAMPLING = 6  # rows per period of the low-pass's cutoff; three times the Nyquist rate
 HALF_WIDTH = 2  # neighbours on each side for the acceleration
 
 
 @dataclass(frozen=True)
 class FrictionSamples:
-    """What was seen of the friction, in the order of time.
+    """Samples of speed and friction torque, in the order of time.
 
-    time (n,) s; speed (n,) rad/s, mean over the sample; change (n,) rad/s, by which the speed changed during it;
-    torque (n,) N.m, T_f of Eq. 5.41; sigma (n,) N.m, its standard deviation by the noise, up to a common factor;
-    acceleration (n,) rad/s2; dropped: how many samples were left out, by reason.
+    time (n,) s; speed (n,) rad/s, mean over the sample; change (n,) rad/s, change of the speed during the sample;
+    torque (n,) N.m, T_f of Eq. 5.41; sigma (n,) N.m, its standard deviation due to noise, up to a common factor;
+    acceleration (n,) rad/s2; dropped: reasons, and how many samples were left out for each.
     """
 
     time: Array
@@ -39,18 +39,18 @@ class FrictionSamples:
 
 
 def filtered_samples(test: ShaftTest, inertia: float, *, cutoff_hz: float = 5.0) -> FrictionSamples:
-    """Speed and torque through the zero-phase filter, acceleration by local slopes, row by row of the log.
+    """Samples with zero-phase filtered speed and torque, and the acceleration from local slopes, as in the thesis.
 
-    Rows between which the filter lets nothing happen are left out: `OVERSAMPLING` per period of the cutoff stay.
+    Only `OVERSAMPLING` rows per period of the cutoff are kept, since the filtered signals do not change in between.
 
-    As the thesis did it. The held speed of a pulse sensor is taken for the speed itself, late by half to one and a
-    half of the time between pulses: near standstill that is wrong by more than friction changes.
+    The held reading of a pulse sensor is taken as the speed, although it is late by half to one and a half of the time
+    between pulses. Near standstill, this error is larger than the changes of friction.
 
     Args:
         inertia: kg.m2.
-        cutoff_hz: of the low-pass.
+        cutoff_hz: cutoff of the low-pass.
     Raises:
-        BadInput: an uneven log, one shorter than the filter's ends, or a cutoff it does not allow.
+        BadInput: an uneven log, one that is too short for the filter, or a cutoff that is too high for its rate.
     Source: thesis Section 5.5, Eq. 5.41.
     """
     columns = np.column_stack([test.speed, test.torque])
@@ -71,18 +71,18 @@ def filtered_samples(test: ShaftTest, inertia: float, *, cutoff_hz: float = 5.0)
 
 
 def pulse_samples(test: ShaftTest, inertia: float, *, pulses: int = 10) -> FrictionSamples:
-    """One sample per pulse interval: over it the mean speed is known exactly, and so is the mean of the torque.
+    """Samples per pulse interval, over which the means of speed and torque are known exactly.
 
-    Where pulses are close, several are taken together. Both sides of Eq. 5.41 are averaged over the same time, which
-    filters without delay; the acceleration is the local slope over neighbouring intervals. Left out are intervals
-    with a reversal, the first and last between two reversals, and those whose neighbours differ by more than the
-    factor `MOST_CHANGE`: the shaft may have stood still in them.
+    Short intervals are joined. Both sides of Eq. 5.41 are averaged over the same time, which filters without delay; the
+    acceleration is the local slope over neighbouring intervals. Left out are intervals with a reversal, the first and
+    last one between two reversals, and those whose neighbours differ by more than the factor `MOST_CHANGE`, since the
+    shaft may have stopped in them.
 
     Args:
         inertia: kg.m2.
-        pulses: per revolution.
+        pulses: pulses per revolution.
     Raises:
-        BadInput: a log in which no interval is left.
+        BadInput: no interval is left.
     Source: thesis Eq. 5.1, 5.41. Differs: the thesis filters the held speed.
     """
     found = _grouped(pulse_intervals(test.time, test.speed, pulses=pulses, noise=test.speed_noise or 0.0))
@@ -112,13 +112,13 @@ def pulse_samples(test: ShaftTest, inertia: float, *, pulses: int = 10) -> Frict
 
 
 def _kept(samples: FrictionSamples, rows: NDArray[np.intp]) -> FrictionSamples:
-    """Those rows alone."""
+    """The samples of these rows only."""
     columns = ("time", "speed", "change", "torque", "sigma", "acceleration")
     return replace(samples, **{name: getattr(samples, name)[rows] for name in columns})
 
 
 def _grouped(found: PulseIntervals) -> PulseIntervals:
-    """Neighbours in the same direction together until they last `SHORTEST` seconds."""
+    """Join neighbouring intervals in the same direction until they last `SHORTEST` seconds."""
     slots = np.floor(np.cumsum(np.minimum(found.end - found.start, SHORTEST)) / SHORTEST * (1 - 1e-9))
     alone = (found.end - found.start >= SHORTEST) | ~found.whole
     fresh = (np.diff(slots) > 0) | (np.diff(found.run) != 0) | alone[1:] | alone[:-1]
@@ -130,7 +130,7 @@ def _grouped(found: PulseIntervals) -> PulseIntervals:
 
 
 def _steady(found: PulseIntervals) -> NDArray[np.bool_]:
-    """Whether both neighbours are there, in the same direction, whole, and of nearly the same speed."""
+    """Whether both neighbours exist, in the same direction, without reversal, and at nearly the same speed."""
     size = np.abs(found.speed)
     ratio = np.maximum(size[1:] / size[:-1], size[:-1] / size[1:])
     alike = (ratio <= MOST_CHANGE) & (found.run[1:] == found.run[:-1]) & found.whole[1:] & found.whole[:-1]
@@ -138,13 +138,13 @@ def _steady(found: PulseIntervals) -> NDArray[np.bool_]:
 
 
 def _timing_noise(difference: Array, speed: Array, length: Array) -> float:
-    """Standard deviation of an interval's length, s, from how far its speed is off the local curve."""
-    left = 1 - 17 / 35  # share of the variance a quadratic through five points leaves in the middle
+    """Standard deviation of an interval's length, s, from the deviations of its speed from the local curve."""
+    left = 1 - 17 / 35  # variance of the middle residual of a quadratic through five points, over that of the noise
     return 1.4826 * float(np.median(np.abs(difference) * length / np.abs(speed))) / np.sqrt(left)
 
 
 def _mean_torque(test: ShaftTest, start: Array, end: Array) -> tuple[Array, Array]:
-    """Mean of the torque from start to end, straight lines between samples, and its standard deviation."""
+    """Mean torque from start to end, with linear interpolation between samples, and its standard deviation."""
     step = np.diff(test.time)
     integral = np.append(0.0, np.cumsum(step * (test.torque[1:] + test.torque[:-1]) / 2))
 
@@ -154,7 +154,7 @@ def _mean_torque(test: ShaftTest, start: Array, end: Array) -> tuple[Array, Arra
         return integral[k] + s * (test.torque[k] + s / (2 * step[k]) * (test.torque[k + 1] - test.torque[k]))
 
     noise = test.torque_noise
-    if noise is None:  # what is left of second differences of white noise, which coarse rounding may hide
+    if noise is None:  # from second differences, as for white noise; coarse rounding may hide these
         noise = max(float(np.median(np.abs(np.diff(test.torque, 2)))) * 1.4826 / np.sqrt(6), test.torque_rounding)
     count = np.maximum((end - start) / sampling(test.time).step, 1.0)
     return (up_to(end) - up_to(start)) / (end - start), noise / np.sqrt(count)

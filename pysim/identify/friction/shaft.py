@@ -16,8 +16,8 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class ShaftColumns:
-    """Which column is what. A gain turns it into torque: the motor's K = displacement / 2 pi for a pressure
-    (thesis Eq. 5.8, 5.9), 1 for a torque."""
+    """Names of the columns, and gains to torque: the motor's K = displacement / 2 pi for a pressure (thesis Eq. 5.8,
+    5.9), 1 for a torque."""
 
     speed: str
     supply: str
@@ -28,10 +28,10 @@ class ShaftColumns:
 
 @dataclass(frozen=True)
 class ShaftTest:
-    """One log. The noises are standard deviations, or None where not stated.
+    """One log. The noises are standard deviations, or None if not specified.
 
     time (n_t,) s; speed (n_t,) rad/s as logged; torque (n_t,) N.m, supply minus load; name for messages;
-    torque_rounding N.m, standard deviation by the resolutions alone: the noise is no smaller.
+    torque_rounding N.m, standard deviation due to quantisation alone, a lower bound of the noise.
     """
 
     name: str
@@ -44,11 +44,10 @@ class ShaftTest:
 
 
 def shaft_tests(dataset: Dataset, columns: ShaftColumns, *, use: str = "fit") -> tuple[ShaftTest, ...]:
-    """Every log of a data set for that use.
+    """Every log of a data set with that use.
 
     Raises:
-        BadInput: a column that is not there, in another unit than it must have or with a noise of zero, or no log for
-            that use.
+        BadInput: a column that is missing, in a wrong unit or with a noise of zero, or no log with that use.
     """
     speed = _signal(dataset, columns.speed, ("rad/s",), 1.0)
     supply = _signal(dataset, columns.supply, ("Pa", "N.m"), columns.supply_gain)
@@ -80,7 +79,7 @@ def _signal(dataset: Dataset, name: str, units: tuple[str, ...], gain: float) ->
 
 
 def _times(gain: float, noise: float | None) -> float | None:
-    """In N.m; None where the data set does not tell."""
+    """Noise of a torque in N.m, from that of its column; None if it is not specified."""
     return None if noise is None else abs(gain) * noise
 
 
