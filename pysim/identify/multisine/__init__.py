@@ -1,4 +1,4 @@
-"""Best linear approximations from periodic and other broadband tests, beside them noise, even and odd distortion."""
+"""Best linear approximations from periodic and other broadband tests, with noise, even and odd distortion."""
 
 from pysim.identify.multisine.approximation import (
     best_linear_approximation,

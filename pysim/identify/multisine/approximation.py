@@ -1,4 +1,4 @@
-"""The best linear approximation from periodic records, by any of three methods."""
+"""The best linear approximation (BLA) from periodic records, by one of three methods."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from pysim.types import BadInput, BestLinearApproximation
 def robust_approximation(
     periods: Periods, *, excited: Harmonics | None = None, transient: Transient | None = None
 ) -> BestLinearApproximation:
-    """From M >= 2 realisations of the random phases: makes no assumption about the lines or the gain's smoothness.
+    """The BLA from M >= 2 realisations of the random phases, without assumptions on lines or smoothness of the gain.
 
     Args:
-        periods: P >= 2 of each realisation tell noise from distortion.
-        excited: harmonic numbers; found in the command's spectrum when not given.
-        transient: how the start is kept out; `LocalTransient()` by default, nothing where there is one period.
+        periods: P >= 2 periods of each realisation separate noise from distortion.
+        excited: harmonic numbers; None finds them in the command's spectrum.
+        transient: how the initial transient is removed; None: `LocalTransient()`, or not at all for a single period.
     Raises:
-        BadInput: one realisation, records that do not excite the same lines, or an output that stands still.
+        BadInput: one realisation, records that do not excite the same lines, or a constant output.
     """
     return _robust(*_prepare(periods, excited, transient))
 
@@ -34,13 +34,13 @@ def _robust(spectra: SteadySpectra, lines: Lines) -> BestLinearApproximation:
 def fast_approximation(
     periods: Periods, *, excited: Harmonics | None = None, transient: Transient | None = None
 ) -> BestLinearApproximation:
-    """From one realisation with odd excited lines, some odd lines left free, and P >= 2 periods.
+    """The BLA from one realisation with odd excited lines, of which some are left out (free), and P >= 2 periods.
 
-    What appears on free lines is distortion: even powers on even lines, odd powers on odd ones. Power that the actuator
-    itself puts on free lines goes through the linear part, and is taken off with the gain interpolated there.
+    Output on free lines is distortion: of even powers on even lines, of odd powers on odd lines. Input power that the
+    actuator puts on free lines passes the linear part, which is subtracted with the interpolated gain.
 
-    Args, Raises: as `robust_approximation`; and BadInput where even lines are excited or no odd ones are free, or where
-        the transient's rule leaves one period.
+    Args, Raises: as `robust_approximation`; also BadInput if even lines are excited, if no odd ones are free, or if
+        only one period remains after removal of the transient.
     """
     return _fast(*_prepare(periods, excited, transient))
 
@@ -70,7 +70,7 @@ def smooth_approximation(
     order: int = 2,
     width: int = 9,
 ) -> BestLinearApproximation:
-    """From one realisation with any excited lines: the gain is a polynomial over neighbouring lines.
+    """The BLA from one realisation with any excited lines: the gain is a polynomial over neighbouring lines.
 
     Args, Raises: as `robust_approximation`; order and width as `over_neighbours`.
     """
@@ -85,8 +85,8 @@ def _smooth(spectra: SteadySpectra, lines: Lines, order: int = 2, width: int = 9
 def best_linear_approximation(
     periods: Periods, *, excited: Harmonics | None = None, transient: Transient | None = None
 ) -> BestLinearApproximation:
-    """The method that these records allow: robust with several realisations, fast with odd lines left free and two
-    periods that the transient's rule leaves, else the local polynomial method."""
+    """The BLA by the best method for these records: robust with several realisations; fast with free odd lines and an
+    estimate of the noise; otherwise the local polynomial method."""
     spectra, lines = _prepare(periods, excited, transient)
     if spectra.values.shape[0] > 1:
         return _robust(spectra, lines)

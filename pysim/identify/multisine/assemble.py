@@ -1,4 +1,4 @@
-"""From gain and spectra to everything a best linear approximation holds."""
+"""Makes a best linear approximation from gain and spectra, with levels of noise and distortion."""
 
 from __future__ import annotations
 
@@ -14,16 +14,16 @@ from pysim.types import BestLinearApproximation, Distortion, Level, MultisineTes
 
 Array = NDArray[np.float64]
 
-# Free lines whose mean stands for the distortion around an excited line.
+# Number of free lines whose mean power is taken as the distortion around an excited line.
 POOLED_LINES = 6
-# A mean below this share of the motion is what rounding leaves of zero.
+# An offset below this share of the signal's root mean square is rounding and counts as zero.
 _ROUNDING = 1e-12
 
 
 def assemble(
     spectra: SteadySpectra, lines: Lines, part: LinearPart, method: str, on_lines: Distortion | None = None
 ) -> BestLinearApproximation:
-    """Levels and the rest around a gain that is known."""
+    """The best linear approximation for a known gain; `on_lines` replaces the distortion that the gain's part has."""
     frequency, amplitude, p = hertz(spectra, lines), amplitude_of(spectra, lines), spectra.periods
     noise = even = odd = distortion = None
     if part.noise is not None:
@@ -40,7 +40,7 @@ def assemble(
             shared=part.shared,
             noise_shared=part.shared + shared - 1,
         )
-        if lines.are_odd:  # else products of any number of lines may fall on any line
+        if lines.are_odd:  # otherwise even and odd powers are on the same lines
             even = on_free_lines(spectra, lines, lines.even, part.gain, amplitude)
             odd = on_free_lines(spectra, lines, lines.odd, part.gain, amplitude) or on_lines
         distortion = on_lines if even is None else _sum(on_lines, even)
@@ -68,7 +68,7 @@ def assemble(
 
 
 def _sum(on_lines: Distortion, even: Distortion) -> Level:
-    """Odd and even distortion together."""
+    """The sum of distortion on the excited lines and of even distortion nearby."""
     return added(on_lines, pooled(even, on_lines.frequency, POOLED_LINES))
 
 
@@ -83,7 +83,7 @@ def hertz(spectra: SteadySpectra, lines: Lines) -> Array:
 
 
 def _mean(spectra: SteadySpectra) -> tuple[float, float]:
-    """The output's mean and its variance: over realisations, or over periods where there is one realisation."""
+    """The output's mean and its variance: over realisations, or over periods if there is only one realisation."""
     means = spectra.means[:, :, 1]
     samples = means.mean(axis=1) if means.shape[0] > 1 else means[0]
     variance = float(np.var(samples, ddof=1) / samples.size) if samples.size > 1 else float("nan")

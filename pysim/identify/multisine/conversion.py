@@ -1,4 +1,4 @@
-"""A best linear approximation as a frequency response, to compare it with stepped sines or to fit models to it."""
+"""Conversion of a best linear approximation to a frequency response, for comparison with stepped sines or for fits."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ from pysim.types import BestLinearApproximation, FrequencyResponse, SineTest
 
 
 def as_frequency_response(bla: BestLinearApproximation) -> FrequencyResponse:
-    """Gain and unwrapped phase with their covariance, of points whose errors are independent, as a fit takes them.
+    """Gain and unwrapped phase with their covariance, at points with independent errors, as a fit assumes.
 
-    Where gains come from windows over neighbouring lines only those in `apart` are in it.
+    If gains come from windows over neighbouring lines, only those in `apart` are used.
 
     Returns:
-        a response of a test whose sine has the multisine's power, sqrt(2) rms around the same offset; the covariance is
-        to first order in error / gain, its rows and columns of the mean are those of the whole test, and it is None
-        where the test did not tell how sure the mean is.
+        a response of a test with a sine of the multisine's power: amplitude sqrt(2) rms, same offset. The covariance is
+        to first order in error / gain, with the variance of the mean of the whole test; it is None if that variance is
+        unknown.
     """
     test = SineTest(bla.test.offset, math.sqrt(2) * bla.test.rms, bla.test.input, bla.test.output)
     places = list(range(bla.gain.size) if bla.apart is None else bla.apart)

@@ -1,4 +1,4 @@
-"""Which records are realisations of the same test."""
+"""Groups of records that are realisations of the same test."""
 
 from __future__ import annotations
 
@@ -12,20 +12,20 @@ from pysim.identify.multisine.periods import Periods
 
 Array = NDArray[np.float64]
 
-# Realisations have the same amplitudes by construction; what differs is noise and a converter's steps.
+# Realisations have the same amplitudes by construction, except for noise and quantisation.
 _SAME_AMPLITUDES = 0.05
 _SAME_OFFSET = 0.1
 
 
 def grouped_realisations(records: Sequence[Periods], *, excited: Harmonics | None = None) -> tuple[Periods, ...]:
-    """Put records together that excite the same lines by the same amplitudes around the same offset.
+    """Group records that excite the same lines with the same amplitudes around the same offset.
 
     Args:
-        records: of one realisation each, or of more that belong together.
-        excited: harmonics of all of them; found in each command's spectrum when not given.
+        records: of one realisation each, or of several that belong together.
+        excited: excited harmonics of all records; None finds them in each command's spectrum.
     Returns:
-        in the order in which each test appears first; of unequal numbers of periods the last ones are kept.
-    """
+        one per test, in the order of first appearance. If numbers of periods differ in a test, the last periods are
+        kept."""
     groups: list[list[Periods]] = []
     for record in records:
         for group in groups:
@@ -38,7 +38,7 @@ def grouped_realisations(records: Sequence[Periods], *, excited: Harmonics | Non
 
 
 def _same_test(first: Periods, second: Periods, excited: Harmonics | None) -> bool:
-    """Grid, spectrum and offset of the commands."""
+    """Whether signals, sampling, spectrum and offset of the commands agree."""
     if (first.names, first.period, first.values.shape[2]) != (second.names, second.period, second.values.shape[2]):
         return False
     lines, other = (chosen_lines(periods, excited).excited for periods in (first, second))
@@ -52,7 +52,7 @@ def _same_test(first: Periods, second: Periods, excited: Harmonics | None) -> bo
 
 
 def _command(periods: Periods) -> Array:
-    """One period of the first realisation's command, (N,)."""
+    """The first realisation's command, averaged over its periods, (N,)."""
     return np.asarray(periods.values[0, :, :, 2 if len(periods.names) == 3 else 0].mean(axis=0))
 
 

@@ -1,4 +1,4 @@
-"""Distortion on the lines that are not excited."""
+"""Distortion on free lines, which are not excited."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ Complex = NDArray[np.complex128]
 def on_free_lines(
     spectra: SteadySpectra, lines: Lines, numbers: Harmonics, gain: Complex, amplitude: Array
 ) -> Distortion | None:
-    """What y - G u is on lines that are not excited, and the noise there; None where no two such lines are known.
+    """Power of y - G u on free lines, less the noise there; None for fewer than two lines or without noise estimate.
 
     Args:
-        numbers: (n,) the lines.
+        numbers: (n,) harmonic numbers of the free lines.
         gain, amplitude: (n_f,) of the excited lines.
-    Source: Pintelon and Schoukens, System Identification, 2nd edition, Section 4.3.2: what the actuator itself puts on
-    these lines is taken off by the linear part.
+    Source: Pintelon and Schoukens, System Identification, 2nd edition, Section 4.3.2: the response to the actuator's
+    own power on these lines is subtracted.
     """
     if numbers.size < 2 or spectra.noise is None:
         return None
@@ -47,7 +47,7 @@ def on_free_lines(
 
 
 def interpolated(gain: Complex, excited: Harmonics, numbers: Harmonics) -> Complex:
-    """The gain between the excited lines: a parabola through the six nearest, by least squares."""
+    """The gain (n,) at harmonic numbers (n,), from a least-squares parabola through the six nearest excited lines."""
     width = min(6, excited.size)
     order = min(2, width - 2)
     if order < 0:

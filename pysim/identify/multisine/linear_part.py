@@ -1,5 +1,5 @@
-"""Three ways to the gain on the excited lines, and to what scatters around it: over realisations, over lines that are
-not excited, over neighbouring lines."""
+"""Gain on the excited lines, and the power of noise and distortion around it, by three methods: over realisations,
+over free lines, and over neighbouring lines."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 
-# Complex degrees of freedom that the variance of a gain shall have at least. Few realisations do not give them line by
-# line; then neighbouring lines are pooled, as the level is smoother than the gain.
+# Smallest number of complex degrees of freedom of a gain's variance. If there are too few realisations, variances of
+# neighbouring lines are pooled, since the level of noise and distortion is smoother than the gain.
 _ENOUGH = 6
 
 
@@ -29,13 +29,13 @@ class LinearPart:
     Args:
         gain: (n_f,) complex.
         variance: (n_f,) E|error|^2 of the gain.
-        variance_degrees: (n_f,) its degrees of freedom, counted in real numbers.
-        power: (n_f,) of noise and distortion in one realisation, in gain unit squared.
-        degrees: (n_f,) those of `power`.
-        noise: (n_f,) the noise in `power`, or None.
-        noise_weight: (n_f,) the share of `noise` that is left in the gain's variance.
-        shared: neighbouring lines whose `power` shares data.
-        apart: places of gains that share no data; None where no two do.
+        variance_degrees: (n_f,) real degrees of freedom of `variance`.
+        power: (n_f,) power of noise and distortion in one realisation, in gain unit squared.
+        degrees: (n_f,) real degrees of freedom of `power`.
+        noise: (n_f,) power of the noise alone, or None.
+        noise_weight: (n_f,) factor from `noise` to the noise's part of `variance`.
+        shared: number of neighbouring lines whose `power` shares data.
+        apart: indices of gains that share no data with each other; None if no two gains share data.
     """
 
     gain: Complex
@@ -50,12 +50,12 @@ class LinearPart:
 
 
 def over_realisations(spectra: SteadySpectra, lines: Lines) -> LinearPart:
-    """The robust method: the mean over M realisations, and how they scatter about it.
+    """The robust method: the mean over M realisations, and their scatter about it.
 
-    Below seven realisations the gain's variance is a mean over as many neighbouring lines as make up for them.
+    With fewer than seven realisations, the gain's variance is averaged over neighbouring lines.
 
-    With a reference r the gain is the ratio of the responses of output and input to it, G_ry / G_ru: noise on the
-    measured input, and feedback, then leave no bias.
+    With a reference r, the gain is the ratio of the responses of output and input to r, G_ry / G_ru, which noise on the
+    measured input and feedback do not bias.
 
     Source: Pintelon and Schoukens, System Identification, 2nd edition, Section 4.3.1, Eq. 4-24 to 4-30 and 3-23.
     """
@@ -71,10 +71,10 @@ def over_realisations(spectra: SteadySpectra, lines: Lines) -> LinearPart:
 
 
 def over_free_lines(spectra: SteadySpectra, lines: Lines, power: Array, degrees: Array) -> LinearPart:
-    """The fast method: the power on odd lines that are not excited stands for that on the excited ones.
+    """The fast method: the power of noise and distortion on excited lines is taken from free odd lines.
 
     Args:
-        power: (n_f,) there, carried over to the excited lines, in gain unit squared; with its `degrees`.
+        power: (n_f,) that power at the excited lines, in gain unit squared; with its `degrees` of freedom.
     Source: as above, Section 4.3.2.
     """
     gain, _, noise = _gain(spectra, lines.excited)
@@ -83,13 +83,13 @@ def over_free_lines(spectra: SteadySpectra, lines: Lines, power: Array, degrees:
 
 
 def over_neighbours(spectra: SteadySpectra, lines: Lines, *, order: int = 2, width: int = 9) -> LinearPart:
-    """A polynomial in frequency through the responses of neighbouring excited lines; what it leaves over scatters.
+    """A polynomial in frequency, fitted to neighbouring excited lines; its residual is noise and distortion.
 
-    One realisation is enough, and every line may be excited; the gain has to be smooth against the window.
+    One realisation is enough, and every line may be excited, but the gain has to be smooth over a window.
 
     Args:
-        order: of the polynomial; the bias is of the order (width / 2)^(order + 1) times that derivative of the gain.
-        width: excited lines in a window; more of them lower the variance.
+        order: degree; the bias is of the order (width / 2)^(order + 1) times the gain's derivative of that order.
+        width: number of excited lines in a window; more lines reduce the variance.
     Source: Pintelon, Vandersteen, Schoukens and Rolain, Mechanical Systems and Signal Processing 25 (2011), 2892-2922.
     """
     m, n_f = spectra.values.shape[0], lines.excited.size
@@ -115,12 +115,12 @@ def over_neighbours(spectra: SteadySpectra, lines: Lines, *, order: int = 2, wid
 
 
 def first_gain(spectra: SteadySpectra, lines: Lines) -> Complex:
-    """The gain (n_f,) by division alone."""
+    """The gain (n_f,) on the excited lines, as a ratio of mean spectra."""
     return _gain(spectra, lines.excited)[0]
 
 
 def noise_power(noise: Complex, numbers: Harmonics, gain: Complex) -> Array:
-    """(n,) variance of y - G u on these harmonics, in the output's unit squared, from a covariance of all lines."""
+    """(n,) variance of y - G u on these harmonics, in the output's unit squared, from the noise covariance of all."""
     return equation_error(noise[numbers - 1], gain)
 
 
@@ -131,7 +131,7 @@ def equation_error(covariance: Complex, gain: Complex) -> Array:
 
 
 def _gain(spectra: SteadySpectra, excited: Harmonics) -> tuple[Complex, Complex, Array | None]:
-    """Gain (n_f,), each realisation's deviation from it (M, n_f), and the noise therein (n_f,)."""
+    """Gain (n_f,), each realisation's deviation from it (M, n_f), and the noise's part of its power (n_f,) or None."""
     chosen = spectra.values[:, excited - 1]
     reference = chosen[:, :, 2] if chosen.shape[2] == 3 else chosen[:, :, 0]
     if np.any(np.abs(reference) == 0):

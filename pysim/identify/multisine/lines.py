@@ -1,4 +1,4 @@
-"""Which harmonics of the period are excited, and what the others can tell."""
+"""Harmonics of the period (lines): excited ones, and free ones that show distortion."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from pysim.types import BadInput
 Array = NDArray[np.float64]
 Harmonics = NDArray[np.intp]
 
-# A line this far (as an amplitude) below the strongest one counts as not excited, and a gap this wide in the sorted
-# amplitudes parts the excited lines from the others: 60 dB and 10 dB.
+# A line counts as not excited if its amplitude is 60 dB below the largest one. The sorted amplitudes must have a gap of
+# 10 dB between excited and other lines.
 _RANGE = 1e-3
 _GAP = 10**0.5
 
 
 @dataclass(frozen=True)
 class Lines:
-    """Harmonic numbers, 1 being one over the period.
+    """Harmonic numbers; number 1 is the inverse of the period.
 
     Args:
         excited: (n_f,) increasing.
-        even, odd: (n,) those between the lowest and the highest excited one that are not excited.
+        even, odd: (n,) free lines in the excited band; `even` may also have one on each side of it.
     """
 
     excited: Harmonics
@@ -34,12 +34,12 @@ class Lines:
 
     @property
     def are_odd(self) -> bool:
-        """Whether even powers of the system leave the excited lines alone."""
+        """Whether all excited lines are odd, so that even powers of a nonlinearity do not disturb them."""
         return bool(np.all(self.excited % 2 == 1))
 
 
 def lines_of(excited: Harmonics) -> Lines:
-    """Sort the lines around the excited ones; even lines one below the lowest and one above the highest count as well.
+    """Find the free lines in the excited band; even lines one below the lowest and one above the highest count too.
 
     Raises:
         BadInput: fewer than two lines, or numbers that are not positive and increasing.
@@ -53,7 +53,7 @@ def lines_of(excited: Harmonics) -> Lines:
 
 
 def chosen_lines(periods: Periods, excited: Harmonics | None) -> Lines:
-    """The lines a caller names, or those the commands show.
+    """The given excited lines with their free lines; if None are given, those in the commands' spectra.
 
     Raises:
         BadInput: as `lines_of` and `excited_lines`, or a line that is not below half the sampling rate.
@@ -70,10 +70,10 @@ def chosen_lines(periods: Periods, excited: Harmonics | None) -> Lines:
 
 
 def find_excited(amplitude: Array) -> Harmonics:
-    """Harmonics that are excited, by the widest gap in the command's amplitude spectrum.
+    """Numbers of the excited harmonics, by the widest gap in the sorted amplitudes of the command's spectrum.
 
     Args:
-        amplitude: (n_l,) of the harmonics 1, 2, ..., as logged.
+        amplitude: (n_l,) amplitudes of the harmonics 1, 2, ...
     Raises:
         BadInput: the spectrum has no gap of 10 dB within the 60 dB below its highest line.
     """
@@ -94,10 +94,10 @@ def find_excited(amplitude: Array) -> Harmonics:
 
 
 def excited_lines(periods: Periods) -> Lines:
-    """The lines that every realisation's command excites.
+    """The lines that the commands of all realisations excite.
 
     Raises:
-        BadInput: the spectra do not show them, or differ from each other.
+        BadInput: the spectra do not show them, or the realisations differ.
     """
     command = periods.values[:, :, :, 2 if len(periods.names) == 3 else 0].mean(axis=1)
     n = command.shape[1]

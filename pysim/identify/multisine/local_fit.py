@@ -36,7 +36,7 @@ def local_fit(regressors: Complex, responses: Complex) -> LocalFit:
         regressors: (n, w, p), w > p.
         responses: (n, w, n_y).
     Raises:
-        BadInput: too few equations, or unknowns that cannot be separated.
+        BadInput: too few equations, or linearly dependent unknowns.
     """
     _, w, p = regressors.shape
     if w <= p:
@@ -59,11 +59,10 @@ def local_fit(regressors: Complex, responses: Complex) -> LocalFit:
 
 
 def windows(centres: Index, available: Index, width: int) -> Index:
-    """Positions (n, width) in `available` (increasing) of the lines nearest to each centre, fewer on one side at the
-    ends.
+    """Indices (n, width) in `available` (increasing) of the lines nearest to each centre; asymmetric at the ends.
 
     Raises:
-        BadInput: fewer lines than the window is wide.
+        BadInput: fewer lines than the window's width.
     """
     if available.size < width:
         raise BadInput(f"local polynomial: a window of {width} lines does not fit into {available.size}; narrow it")
@@ -74,10 +73,10 @@ def windows(centres: Index, available: Index, width: int) -> Index:
 
 
 def apart(at: Index, centres: Index) -> tuple[int, ...]:
-    """Places, from the lowest up, of windows (n, width) that share no line; of equal ones that nearest to its middle.
+    """Indices, in increasing order, of windows that share no line; of equal windows, the one with the best centre.
 
     Args:
-        at, centres: (n, width) and (n,) as `windows` has them.
+        at, centres: (n, width) and (n,), as returned by and passed to `windows`.
     """
     off, places, last = np.abs(2 * centres - at[:, 0] - at[:, -1]), [], -1
     for k in np.lexsort((off, at[:, 0])).tolist():

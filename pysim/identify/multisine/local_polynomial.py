@@ -18,23 +18,23 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _CHUNK = 4096  # windows solved at once, so that long records fit into memory
-_EXCITED = 1e-2  # share of the highest input amplitude, smoothed, down to which the band reaches: 40 dB
-_NOTHING = 1e-5  # share below which there are but the last digits of a log: 100 dB
-# Share of the input's amplitude in a window that a transient must leave over: below it the gain of the pump's chirp and
-# of noisy second-order systems is off by its own size, above it by a hundredth.
+_EXCITED = 1e-2  # share of the largest smoothed input amplitude above which a line is in the default band: 40 dB
+_NOTHING = 1e-5  # share below which there is only rounding: 100 dB
+# Smallest share of the input's amplitude in a window that a polynomial must leave as residual. Below it, gains of the
+# pump's chirp and of noisy second-order systems are wrong by 100 percent; above it, by 1 percent.
 _ROUGH = 0.3
 
 
 @dataclass(frozen=True)
 class LocalPolynomial:
-    """Gain and transient as polynomials over 2 half_width + 1 lines around each line.
+    """Settings: gain and transient are polynomials over 2 half_width + 1 lines around each line.
 
-    Every line costs 2 (order + 1) unknowns; what is left, q = 2 half_width + 1 - 2 (order + 1), are the complex degrees
-    of freedom of the noise. A wide window lowers the variance of the gain; its bias grows as half_width^(order + 1)
-    divided by the record's length to the same power.
+    A window has 2 (order + 1) unknowns, so that q = 2 half_width + 1 - 2 (order + 1) complex degrees of freedom remain
+    for the noise. A wide window reduces the variance of the gain, but its bias grows as (half_width / d)^(order + 1),
+    where d is the duration of the record.
 
     Args:
-        order: R; even orders are better by one power in the middle of a window.
+        order: degree R; for even degrees, the bias in the middle of a window is smaller by one power.
         half_width: n, in lines.
     Raises:
         BadInput: a window that leaves no degree of freedom.
@@ -52,7 +52,7 @@ class LocalPolynomial:
 
     @property
     def degrees(self) -> int:
-        """q, counted in complex numbers."""
+        """Complex degrees of freedom q."""
         return 2 * self.half_width + 1 - 2 * (self.order + 1)
 
 
@@ -65,22 +65,22 @@ def local_polynomial_approximation(
 ) -> BestLinearApproximation:
     """The gain from one record of any length and excitation, free of leakage to the order of the polynomials.
 
-    Y(k + r) = (sum_s g_s r^s) U(k + r) + sum_s t_s r^s + V(k + r), solved for r = -n ... n around every line k; the
-    gain is g_0, the transients of plant and noise are t_0. Noise and stochastic distortion cannot be separated without
-    periods: `total` holds both.
+    Y(k + r) = (sum_s g_s r^s) U(k + r) + sum_s t_s r^s + V(k + r) is solved for r = -n ... n around every line k. The
+    gain is g_0, and the transients of plant and noise are t_0. Without periods, noise and stochastic distortion cannot
+    be separated; `total` is the sum of both.
 
     Args:
         record: equidistant samples.
-        columns: names of input and output and, where the input is measured with noise or stands in a loop, of a known
-            command; the gain is then the ratio of the responses to it.
-        band: Hz, lowest and highest line; where the input is within 40 dB of its highest line by default. Lines around
-            which the input is as smooth as a transient, and cannot be separated from one, are left out in any case.
+        columns: names of input and output. If the input is measured with noise, or depends on the output by feedback,
+            also that of a known command; the gain is then the ratio of the responses to the command.
+        band: lowest and highest frequency in Hz; None takes lines where the input is within 40 dB of its largest line.
+            Lines where the input is too smooth to be separated from a transient are always left out.
         settings: order and width.
     Returns:
-        a gain per line of the record's spectrum; estimates less than 2 half_width lines apart share data.
+        a gain per line of the record's spectrum; estimates up to 2 half_width lines apart share data.
     Raises:
-        BadInput: samples that are not equidistant, too few lines in the band, an input that does not excite them, or an
-            output that stands still.
+        BadInput: samples that are not equidistant, too few lines in the band, an input that does not excite them, or a
+            constant output.
     Source: Pintelon, Schoukens, Vandersteen and Barbé, Estimation of nonparametric noise and FRF models for
     multivariable systems, Part I: theory, Mechanical Systems and Signal Processing 24 (2010), 573-595.
     """
@@ -106,7 +106,7 @@ def local_polynomial_approximation(
         record.origin,
         amplitude,
         float(np.mean(record[names[1]])),
-        float(error[0]) / 4,  # a mean is half a line of a cosine: its variance is a quarter of the lowest line's
+        float(error[0]) / 4,  # the line at 0 has twice the mean as amplitude; its power is that of the lowest line
         plain_level(frequency, error / amplitude**2, degrees),
         apart=apart(at, spectra.chosen),
     )
@@ -114,8 +114,8 @@ def local_polynomial_approximation(
 
 @dataclass(frozen=True)
 class WholeSpectra:
-    """A record's lines (n_l,) from one over its length (s) on: what drives, the input, the answers (n_l, n_y), and the
-    positions to estimate."""
+    """Spectrum of a whole record of a length in s, from line 1 on: reference or input that drives the plant (n_l,), the
+    input (n_l,), the responses (n_l, n_y), and the indices of the lines to estimate."""
 
     drive: Complex
     input: Complex
@@ -146,7 +146,7 @@ def _spectra(values: Array) -> Complex:
 
 
 def solve(drive: Complex, answers: Complex, chosen: NDArray[np.intp], settings: LocalPolynomial) -> LocalFit:
-    """The windows around the chosen positions, some thousand at a time."""
+    """Fit the windows around the chosen lines, a few thousand at a time."""
     positions = np.arange(drive.size)
     parts = []
     for first in range(0, chosen.size, _CHUNK):
@@ -166,7 +166,7 @@ def solve(drive: Complex, answers: Complex, chosen: NDArray[np.intp], settings: 
 def _band(
     drive: Complex, frequency: Array, band: tuple[float, float] | None, settings: LocalPolynomial
 ) -> NDArray[np.intp]:
-    """Positions of the lines to estimate."""
+    """Indices of the lines to estimate."""
     width = 2 * settings.half_width + 1
     if drive.size < width:
         raise BadInput(f"local polynomial: {drive.size} lines do not fill a window of {width}; record longer")
@@ -191,7 +191,7 @@ def _band(
 
 
 def _is_rough(drive: Complex, settings: LocalPolynomial) -> NDArray[np.bool_]:
-    """(n_l,) whether a polynomial, like that of a transient, leaves enough of the input over around a line."""
+    """(n_l,) whether a polynomial leaves a large enough residual of the input in the window around each line."""
     width = 2 * settings.half_width + 1
     distance = np.arange(width, dtype=np.float64) - settings.half_width
     basis, _ = np.linalg.qr(powers(distance[None], settings.order)[0].real)

@@ -13,10 +13,10 @@ from pysim.types import BadInput, Record, sampling
 
 Array = NDArray[np.float64]
 
-# Share of a sampling interval by which a sample may be off the grid. What it costs at the Nyquist frequency is a phase
-# noise of 1.8 deg on single samples, and far less on lines, which are means over all samples.
+# Share of a sampling interval by which a sample may be off the grid. At the Nyquist frequency this is a phase noise of
+# 1.8 deg on single samples, and far less on lines, which are means over all samples.
 _JITTER = 0.01
-# The same for the end of the last period: a period that drifts against the samples leaks into all lines.
+# The same for the end of the last period, since a period that drifts against the samples leaks into all lines.
 _DRIFT = 0.05
 
 
@@ -26,10 +26,10 @@ class Periods:
 
     Args:
         values: (M, P, N, n_s) in the signals' units.
-        names: (n_s) input, output and, where there is one, the noise-free reference.
+        names: (n_s) input, output and, if there is one, the noise-free reference.
         units: (n_s).
         period: s.
-        origin: of the first record.
+        origin: origin of the first record.
     Raises:
         BadInput: another shape, or numbers that are not finite.
     """
@@ -50,7 +50,7 @@ class Periods:
             raise BadInput(f"periods of {self.origin or 'a record'}: every sample must be finite")
 
     def without_first(self, count: int) -> Periods:
-        """The same with the first periods of every realisation left out."""
+        """The periods without the first ones of every realisation."""
         left = self.values.shape[1] - count
         if count < 0 or left < 1:
             raise BadInput(f"periods: of {self.values.shape[1]}, {count} cannot be left out; record more periods")
@@ -70,15 +70,14 @@ def periods_of(
     Args:
         records: one per realisation of the random phases, on the same sampling grid.
         period: s, a whole number of samples.
-        columns: names of input and output and, where the input is measured with noise, of the command behind it, which
-            is known exactly.
-        start: s; where the first period begins. Where it is not given, the part in which the command repeats itself is
-            found in the command, and its last whole periods are taken; a record of less than two periods is taken as it
-            ends.
-        count: periods of each record; as many as the shortest one has when not given.
+        columns: names of input and output; if the input is measured with noise, also of its command, which is known
+            exactly.
+        start: start of the first period, s. None searches for the periodic part of the command and takes its last whole
+            periods; of a record shorter than two periods, the last period is taken.
+        count: periods of each record; None takes as many as the shortest record has.
     Raises:
-        BadInput: times that are not equidistant, a period that is no whole number of samples, fewer periods than asked
-            for, or a command that does not repeat itself.
+        BadInput: times that are not equidistant, a period that is no whole number of samples, fewer periods than
+            `count`, or a command that is not periodic.
     """
     if not records:
         raise BadInput("multisine: there is no record; give one per realisation")
@@ -101,10 +100,10 @@ def periods_of(
 
 
 def checked_columns(columns: Sequence[str]) -> tuple[str, ...]:
-    """Input and output, and the reference where there is one, each a column of its own.
+    """Names of input and output, and of the reference if there is one.
 
     Raises:
-        BadInput: another number of names, or one that stands there twice.
+        BadInput: another number of names, or one of them twice.
     """
     names = tuple(columns)
     if len(names) not in (2, 3) or len(set(names)) < len(names):
@@ -113,10 +112,10 @@ def checked_columns(columns: Sequence[str]) -> tuple[str, ...]:
 
 
 def refuse_still(output: Array, name: str) -> None:
-    """Refuse samples of an output that are all alike.
+    """Reject a constant output.
 
     Raises:
-        BadInput: they are; there would be a gain of zero and a phase of rounding errors.
+        BadInput: it is constant; the gain would be zero, and the phase only rounding errors.
     """
     if np.ptp(output) == 0:
         raise BadInput(
@@ -137,7 +136,7 @@ def sampling_interval(record: Record) -> float:
     step = float(time[-1] - time[0]) / (time.size - 1)
     off = np.abs(time - time[0] - step * np.arange(time.size))
     worst = int(np.argmax(off))
-    # Each end of the grid may be off by half of the last digit, and so may every time between.
+    # Both ends of the grid may be wrong by half of the last digit, and so may every time between.
     if off[worst] > max(_JITTER * step, sampling(time).digit):
         raise BadInput(
             f"multisine: {record.origin or 'a record'} is not sampled at equal intervals: at {time[worst]:g} s it is "
@@ -147,7 +146,7 @@ def sampling_interval(record: Record) -> float:
 
 
 def _cut(record: Record, period: float, names: tuple[str, ...], start: float | None) -> Array:
-    """(P, N, n_s) of one record: from the start on, or up to the end of what repeats itself."""
+    """Periods (P, N, n_s) of one record: from `start` on, or up to the end of the periodic part."""
     step = sampling_interval(record)
     columns = np.column_stack([record[name] for name in names])
     where = record.origin or "a record"

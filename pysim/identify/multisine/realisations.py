@@ -1,4 +1,4 @@
-"""Best linear approximations of many records at once, realisations of one test taken together."""
+"""Best linear approximations of many records, with realisations of one test taken together."""
 
 from __future__ import annotations
 
@@ -37,18 +37,18 @@ def approximations(
     drop: int | None = None,
     excited: NDArray[np.intp] | None = None,
 ) -> list[BestLinearApproximation]:
-    """One of each test that the records are realisations of.
+    """The best linear approximation of each test, from records that are its realisations.
 
     Args:
-        columns: names of input and output, and of a reference where there is one.
-        period: of the multisine, s.
+        columns: names of input and output, and of a reference if there is one.
+        period: period of the multisine, s.
         method: one of METHODS.
-        start: s, of the first period; found where None.
-        count: periods of each record; all where None.
-        drop: periods to leave out, in place of estimating the transient.
-        excited: (n,) harmonics that are excited; found where None.
+        start: start of the first period, s; None finds it.
+        count: periods of each record; None takes all.
+        drop: number of first periods to leave out, instead of estimating the transient.
+        excited: (n,) excited harmonics; None finds them.
     Raises:
-        BadInput: a record that is not periodic, or what the method refuses.
+        BadInput: a record that is not periodic, or that the method rejects.
     """
     cuts = [periods_of([one], period, columns, start=start, count=count) for one in records]
     transient = None if drop is None else DropPeriods(drop)

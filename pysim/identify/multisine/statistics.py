@@ -1,4 +1,4 @@
-"""Intervals of variances and of their differences, and whether a distortion stands out of the noise."""
+"""Intervals of variances and of their differences, and a test of distortion against noise."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ def variance_interval(variance: Array, degrees: Array, confidence: float = CONFI
 def difference_interval(
     first: Array, first_degrees: Array, second: Array, second_degrees: Array, confidence: float = CONFIDENCE
 ) -> tuple[Array, Array]:
-    """Ends (n,) of the interval of the difference of two variances that are estimated independently.
+    """Ends (n,) of the interval of the difference of two independently estimated variances.
 
-    The lower end is above zero exactly where the F test of equal variances says so.
+    The lower end is above zero exactly if the F test of equal variances is significant.
 
     Source: Ting, Burdick, Graybill, Jeyaratnam and Lu, Confidence intervals on linear combinations of variance
     components that are unrestricted in sign, Journal of Statistical Computation and Simulation 35 (1990), 135-143.
@@ -47,7 +47,7 @@ def _excess(degrees: Array, tail: float) -> Array:
 
 
 def plain_level(frequency: Array, variance: Array, degrees: Array) -> Level:
-    """A level that is estimated by itself."""
+    """A level with the interval of its variance."""
     return Level(frequency, variance, *variance_interval(variance, degrees))
 
 
@@ -61,16 +61,16 @@ def distortion_level(
     shared: float = 1.0,
     noise_shared: float = 1.0,
 ) -> Distortion:
-    """What the power (n,) on lines exceeds the noise (n,) expected there, both in gain unit squared."""
+    """Distortion: power (n,) on lines less the noise (n,) there, both in gain unit squared, with its interval."""
     low, high = difference_interval(power, degrees, noise, noise_degrees)
     return Distortion(frequency, power - noise, low, high, power, noise, degrees, noise_degrees, shared, noise_shared)
 
 
 def pooled(distortion: Distortion, frequency: Array, count: int) -> Distortion:
-    """The distortion at other frequencies (n,) in Hz, from the mean over the `count` nearest lines of each.
+    """The distortion at other frequencies (n,) in Hz, as the mean over the `count` lines nearest to each.
 
-    Single lines know a variance to within a factor of 40 (one realisation, 95 percent); a mean over six to within 5.
-    Lines that share data are no more than one: a mean over fewer than that knows what one of them knows.
+    A single line gives a variance to within a factor of 40 (one realisation, 95 percent); a mean over six, within 5.
+    Lines that share data count as one, so a mean over such lines has the degrees of freedom of one line.
     """
     lines = distortion.frequency
     count = min(count, lines.size)
@@ -89,7 +89,7 @@ def pooled(distortion: Distortion, frequency: Array, count: int) -> Distortion:
 
 
 def added(first: Level, second: Level) -> Level:
-    """The sum of two levels at the same frequencies, independent of each other.
+    """The sum of two independent levels at the same frequencies.
 
     Source: the method of variance estimates recovery of Zou and Donner, Statistics in Medicine 27 (2008), 1693-1702.
     """
@@ -100,11 +100,10 @@ def added(first: Level, second: Level) -> Level:
 
 
 def distortion_p_value(distortion: Distortion) -> float:
-    """How often a linear system shows ratios as large as these; small where distortion is there.
+    """p-value of the ratios of power to noise for a linear system; small if there is distortion.
 
-    Two questions in one: are the ratios large on the whole (mean of their logarithms, whose distribution is known), and
-    is the largest too large for a single line (Bonferroni)? Each may use half of the level, so the value is at most
-    twice too large.
+    It combines two tests: of the mean of the ratios' logarithms, whose distribution is known, and of the largest ratio
+    (Bonferroni over the lines). The p-value is twice the smaller one, at most twice too large.
     """
     ratio, first, second = distortion.ratio, distortion.degrees, distortion.noise_degrees
     n = ratio.size
@@ -123,14 +122,14 @@ def distortion_p_value(distortion: Distortion) -> float:
 def gain_interval(bla: BestLinearApproximation, confidence: float = CONFIDENCE) -> tuple[Array, Array]:
     """Half widths (n_f,) of the intervals of |G| (its unit) and of its phase (rad), to first order in the error.
 
-    Student's distribution, because the variance is estimated too.
+    By Student's t distribution, since the variance is estimated too.
     """
     half = stdtrit(bla.degrees, (1 + confidence) / 2) * np.sqrt(bla.variance / 2)
     return half, half / np.abs(bla.gain)
 
 
 def gain_radius(bla: BestLinearApproximation, confidence: float = CONFIDENCE) -> Array:
-    """Radii (n_f,) of the circles in the complex plane that hold the true gain with this probability.
+    """Radii (n_f,) of the circles in the complex plane that contain the true gain with this probability.
 
     Source: |error|^2 / variance is F distributed with 2 and `degrees` degrees of freedom.
     """

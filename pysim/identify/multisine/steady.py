@@ -15,7 +15,7 @@ from pysim.types import BadInput
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-# What double precision leaves of a signal, relative to its largest line; no noise is taken to be smaller.
+# Rounding error of double precision relative to the largest line; the noise is taken to be at least this.
 _ROUNDING = 1e-13
 
 
@@ -25,11 +25,11 @@ class SteadySpectra:
 
     Args:
         values: (M, n_l, n_s) at the harmonics 1, 2, ..., n_l.
-        noise: (n_l, n_s, n_s) covariance E[e e^H] of one realisation's values, or None where there is one period only.
+        noise: (n_l, n_s, n_s) covariance E[e e^H] of one realisation's values; None if there is only one period.
         degrees: (n_l,) complex degrees of freedom of `noise`.
-        span: harmonics over which estimates of the noise share data; 1 where they do not.
-        means: (M, P, n_s) of every period.
-        periods: what they were made from.
+        span: number of harmonics over which estimates of the noise share data; 1 if they do not.
+        means: (M, P, n_s) mean of every period.
+        periods: the periods of the spectra.
     """
 
     values: Complex
@@ -46,25 +46,25 @@ class SteadySpectra:
 
 
 class Transient(Protocol):
-    """How what is left of the start is kept out of the spectra."""
+    """A way to remove the initial transient from the spectra."""
 
     def spectra(self, periods: Periods) -> SteadySpectra:
-        """The steady state's spectra."""
+        """Spectra of the steady state."""
         ...
 
 
 @dataclass(frozen=True)
 class DropPeriods:
-    """Leave out the first periods and take the rest for steady; the noise is how the rest differ from each other.
+    """Leave out the first periods, and take the rest as steady; the noise is their scatter.
 
-    Right where the transient is over by then, wasteful where it is not. Source: Pintelon and Schoukens, System
-    Identification: A Frequency Domain Approach, 2nd edition, Eq. 2-31 to 2-33.
+    This is right only if the transient has faded by then. Source: Pintelon and Schoukens, System Identification: A
+    Frequency Domain Approach, 2nd edition, Eq. 2-31 to 2-33.
     """
 
     count: int = 1
 
     def spectra(self, periods: Periods) -> SteadySpectra:
-        """(P - count) periods; without a noise estimate where one is left."""
+        """Spectra from P - count periods; there is no noise estimate from a single period."""
         kept = periods.without_first(self.count)
         m, p = kept.values.shape[:2]
         lines = _amplitudes(kept.values, axis=2)  # (M, P, n_l, n_s)
@@ -80,17 +80,17 @@ class DropPeriods:
 
 @dataclass(frozen=True)
 class LocalTransient:
-    """Estimate the transient, and the noise, on the lines between the harmonics, where nothing else is.
+    """Estimate transient and noise on the lines between the harmonics, where there is nothing else.
 
-    The spectrum of all P periods together has P - 1 such lines between two harmonics. A transient's spectrum is smooth,
-    so a polynomial through the lines around a harmonic tells what the transient adds to it; what the polynomial leaves
-    over is noise. No period is lost. Needs two periods, and a window that is narrow against the resonances.
+    The spectrum of all P periods together has P - 1 such lines between two harmonics. The spectrum of a transient is
+    smooth, so a polynomial through the lines around a harmonic gives the transient at the harmonic. The polynomial's
+    residual is noise. All periods are used; two are needed, and a window that is narrower than the resonances.
 
     Args:
-        order: of the polynomial.
-        lines: in a window; lines - order - 1 are the complex degrees of freedom of the noise, per realisation.
+        order: degree of the polynomial.
+        lines: lines in a window; lines - order - 1 complex degrees of freedom remain for the noise, per realisation.
     Raises:
-        BadInput: fewer lines than unknowns.
+        BadInput: too few lines for the order.
     Source: Pintelon, Barbé, Vandersteen, Schoukens, Improved (non-)parametric identification of dynamic systems
     excited by periodic signals, Mechanical Systems and Signal Processing 25 (2011), 2683-2704.
     """
@@ -105,7 +105,7 @@ class LocalTransient:
             )
 
     def spectra(self, periods: Periods) -> SteadySpectra:
-        """All periods, with the transient taken off."""
+        """Spectra from all periods, less the transient."""
         m, p, n, n_s = periods.values.shape
         if p < 2:
             raise BadInput("transient: one period does not tell the transient from the response; record two or more")
@@ -133,6 +133,6 @@ def _amplitudes(values: Array, axis: int) -> Complex:
 
 
 def _floored(noise: Complex, values: Complex) -> Complex:
-    """The covariance with what rounding adds."""
+    """The covariance plus that of rounding errors."""
     floor = (_ROUNDING * np.abs(values).max(axis=(0, 1))) ** 2
     return noise + np.diag(floor)

@@ -1,4 +1,4 @@
-"""Which part of a logged command repeats itself."""
+"""Search for the periodic part of a logged command."""
 
 from __future__ import annotations
 
@@ -9,25 +9,25 @@ from pysim.types import BadInput
 
 Array = NDArray[np.float64]
 
-# How far a command may be from itself one period ago: of its whole range (steps of a quantiser among it), and of the
-# typical difference (its noise). All are tried, because a small wave may sit on a large offset.
+# Limits of the difference between a command and itself one period ago: shares of its range (for quantisation), and a
+# multiple of the median difference (for noise). All are tried, since a small wave may have a large offset.
 _OF_RANGE = (1e-9, 1e-6, 1e-5, 1e-4, 2e-4, 5e-4, 1e-3, 2e-3)
 _OF_TYPICAL = 8.0
-# Mean square of that difference, of the command's variance, where it repeats itself; 2 where it does not.
+# Largest mean square of that difference over the command's variance, for a periodic part; 2 for an aperiodic one.
 _REPEATED = 0.3
-# Parts that repeat themselves as well as this, in comparison with the best one or by themselves, are equally good: a
-# quantiser's steps may differ here and there.
+# Parts count as equally good if their mean square is within this factor of the best one, plus `_GOOD`: quantisation
+# steps may differ here and there.
 _AS_GOOD = 4.0
 _GOOD = 3e-3
 
 
 def periodic_stretch(command: Array, size: int) -> slice:
-    """The part of a command (n_t,) that repeats itself after `size` samples: without lead-in, hold and way back.
+    """The part of a command (n_t,) that is periodic with `size` samples, without lead-in, hold and way back.
 
-    Of parts that repeat themselves equally well it is the longest one; a hold has no motion that could repeat itself.
+    Of parts that are equally periodic, the longest one. A hold does not count, as it has no variance.
 
     Raises:
-        BadInput: it repeats itself nowhere.
+        BadInput: no part is periodic over two periods.
     """
     difference = np.abs(command[size:] - command[:-size])
     limits = [share * float(np.ptp(command)) for share in _OF_RANGE] + [_OF_TYPICAL * float(np.median(difference))]
@@ -47,13 +47,13 @@ def periodic_stretch(command: Array, size: int) -> slice:
 
 
 def _part(command: Array, difference: Array, size: int, limit: float) -> tuple[int, int]:
-    """First and last of the run below the limit that has the most motion in it."""
+    """First sample and end of the run below the limit that has the largest variance times length."""
     edges = np.flatnonzero(np.diff(np.concatenate([[False], difference <= limit, [False]])))
     runs = [(first, last + size) for first, last in edges.reshape(-1, 2).tolist()]
     return max(runs, key=lambda run: float(np.var(command[slice(*run)])) * (run[1] - run[0]), default=(0, 0))
 
 
 def _unlikeness(command: Array, difference: Array, size: int, part: tuple[int, int]) -> float:
-    """Mean square of the difference between a part's periods, of its variance."""
+    """Mean square difference between a part's periods, over its variance."""
     variance = float(np.var(command[slice(*part)]))
     return float(np.mean(difference[part[0] : part[1] - size] ** 2)) / variance if variance > 0 else np.inf

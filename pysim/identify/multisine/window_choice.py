@@ -1,4 +1,4 @@
-"""Order and width of the local polynomials that suit a record: bias against variance."""
+"""Choice of order and width of the local polynomials for a record: a compromise between bias and variance."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ CANDIDATES = tuple(LocalPolynomial(r, n) for r in (2, 4) for n in (4, 6, 9, 14, 
 
 @dataclass(frozen=True)
 class WindowChoice:
-    """Settings, and the mean square by which they miss a line they have not seen, of the best candidate's."""
+    """Settings, and their mean square prediction error of a left-out line, over that of the best candidate."""
 
     settings: LocalPolynomial
     relative_error: float
@@ -29,16 +29,16 @@ def rank_local_polynomials(
     band: tuple[float, float] | None = None,
     candidates: Sequence[LocalPolynomial] = CANDIDATES,
 ) -> tuple[WindowChoice, ...]:
-    """Candidates from best to worst, by leaving out the middle line of every window and predicting it.
+    """Candidates from best to worst, by the prediction error of the middle line of every window when it is left out.
 
-    A window too wide for the gain predicts badly by bias, one too narrow by variance. Noise that is not the same
-    everywhere is weighed by the residual of the first candidate that fits.
+    A window that is too wide predicts badly due to bias, a narrow one due to variance. The errors are weighted by the
+    residual variance of the first candidate, since noise may depend on frequency.
 
     Args:
         record, columns, band: as `local_polynomial_approximation`.
-        candidates: those whose window does not fit into the record are left out.
+        candidates: settings to compare; those whose window does not fit into the record are left out.
     Raises:
-        BadInput: as there, or no candidate.
+        BadInput: as `local_polynomial_approximation`, or no candidate.
     Source: leave-one-out prediction by the leverage of each line, as in D. M. Allen, Technometrics 16 (1974), 125-127.
     """
     if not candidates:
@@ -59,7 +59,7 @@ def rank_local_polynomials(
 
 
 def _left_out(fit: LocalFit, drive: Complex, answer: Complex, settings: LocalPolynomial) -> Complex:
-    """(n,) by how much the middle line misses its prediction from all others."""
+    """(n,) middle line of each window less its prediction from all other lines."""
     transient = settings.order + 1
     row = np.zeros((drive.size, 2 * transient), dtype=np.complex128)
     row[:, 0], row[:, transient] = drive, 1.0
