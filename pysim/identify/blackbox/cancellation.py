@@ -1,4 +1,4 @@
-"""Poles and zeros that lie so close together that the data cannot tell them apart."""
+"""Poles and zeros that cancel each other within the accuracy of the data."""
 
 from __future__ import annotations
 
@@ -10,14 +10,14 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 _LEVEL = 0.95
-_CLOSE = 1e-3  # relative distance at which a pair cancels whatever the noise
+_CLOSE = 1e-3  # relative distance below which a pair cancels at any noise
 
 
 def cancellations(poles: Complex, zeros: Complex, pole_spread: Complex, zero_spread: Complex) -> list[tuple[int, int]]:
-    """Pairs (pole, zero) that count as one root each, of conjugates those above the axis.
+    """Indices of pairs (pole, zero) that cancel; of conjugate roots, those above the real axis.
 
-    A pair cancels where the two differ by a thousandth of their size, or where their distance is within the 95 percent
-    region of what noise does to it (Wald's test) and no larger than the pole itself.
+    A pair cancels if the two differ by a thousandth of their magnitude. It also cancels if their difference is within
+    its 95 percent confidence region around zero (Wald test), and no larger than the pole's magnitude.
 
     Args:
         poles, zeros: (n_p,) and (n_z,) rad/s.
@@ -29,7 +29,7 @@ def cancellations(poles: Complex, zeros: Complex, pole_spread: Complex, zero_spr
             if pole.imag < 0 or zero.imag < 0 or (pole.imag == 0) != (zero.imag == 0):
                 continue
             apart = abs(pole - zero)
-            with np.errstate(invalid="ignore"):  # neither may be determined
+            with np.errstate(invalid="ignore"):  # both may be undetermined
                 noise = pole_spread[i] - zero_spread[j]
             if apart <= _CLOSE * abs(pole) or (apart <= abs(pole) and within_noise(pole - zero, noise)):
                 candidates.append((apart, i, j))
@@ -41,7 +41,7 @@ def cancellations(poles: Complex, zeros: Complex, pole_spread: Complex, zero_spr
 
 
 def within_noise(distance: complex, spread: Complex) -> bool:
-    """Whether noise makes such a distance in 95 of 100 cases; spread (r,) is the complex factor of its covariance."""
+    """Whether a distance is within its 95 percent region around zero; spread (r,): complex factor of its covariance."""
     rows = np.vstack([spread.real, spread.imag]) if distance.imag or np.any(spread.imag) else spread.real[None, :]
     if not np.isfinite(rows).all():
         return True

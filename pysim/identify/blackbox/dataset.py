@@ -1,4 +1,4 @@
-"""A transfer function for every frequency response of a data set."""
+"""Fits of a transfer function to every frequency response of a data set."""
 
 from __future__ import annotations
 
@@ -24,18 +24,18 @@ Progress = Callable[[int, int], None]
 
 @dataclass(frozen=True)
 class FittedResponse:
-    """One working point.
+    """The fit at one operating point.
 
     Args:
-        label: offset and amplitude in the unit that people read, as in the thesis' file names; behind them output and
-            input, where the responses that were fitted are of several.
+        label: offset and amplitude in the display unit, as in the thesis' file names; output and input follow if
+            responses of several signals were fitted.
         measured: the response.
-        fit: the transfer function; of the suggested structure where structures were compared.
+        fit: the transfer function; of the suggested structure if structures were compared.
         suggestion: that comparison, or None.
-        reference_hz: whose gain counts as 0 dB in `deviations`; None for absolute gains.
-        deviations: the four numbers of thesis Table 1.3 between the two, as in Table 4.4.
-        notes: of the analysis of the logs, and of the fit.
-        held_out: the same four numbers for each response of this test that is held out, in the order of the data.
+        reference_hz: frequency whose gain counts as 0 dB in `deviations`; None for absolute gains.
+        deviations: the four deviations of thesis Table 1.3 between fit and measurement, as in Table 4.4.
+        notes: notes on the fit, and on the analysis of the logs.
+        held_out: these deviations for each response of the same test that is not fitted, in the order of the data.
     """
 
     label: str
@@ -50,7 +50,7 @@ class FittedResponse:
 
 @dataclass(frozen=True)
 class _Found:
-    """A response of the data set, and how its input's unit is read."""
+    """A response of the data set, and the factor from its input's unit to the display unit."""
 
     response: FrequencyResponse
     use: str
@@ -59,20 +59,20 @@ class _Found:
 
     @property
     def test(self) -> tuple[float, float]:
-        """Offset and amplitude in the unit that people read."""
+        """Offset and amplitude in the display unit."""
         return self.factor * self.response.test.offset, self.factor * self.response.test.amplitude
 
     def label(self, *, signals: bool) -> str:
-        """Offset and amplitude in that unit, with output and input behind them on request."""
+        """Offset and amplitude in the display unit, followed by output and input if `signals`."""
         test = self.response.test
         return test.label_in(self.factor) + (f", {test.output} to {test.input}" if signals else "")
 
     def matches(self, test: tuple[float, float]) -> bool:
-        """Whether it is of that offset and amplitude."""
+        """Whether its test has this offset and amplitude."""
         return bool(np.allclose(self.test, test, rtol=1e-6, atol=1e-9))
 
     def repeats(self, other: _Found) -> bool:
-        """Whether it is of the same test, between the same signals."""
+        """Whether both have the same offset, amplitude and signals."""
         one, two = self.response.test, other.response.test
         return (one.input, one.output) == (two.input, two.output) and self.matches(other.test)
 
@@ -87,19 +87,19 @@ def fit_dataset(
     tests: Sequence[tuple[float, float]] = (),
     progress: Progress | None = None,
 ) -> tuple[FittedResponse, ...]:
-    """Fit every response of the data set that is of use "fit", tables first, then those of its stepped-sine logs.
+    """Fit every response of the data set with use "fit": tables first, then those of stepped-sine logs.
 
-    All others are held against the transfer function of their test.
+    Responses with another use are compared with the transfer function of the same test.
 
     Args:
-        structure: poles, zeros, dead time, stability; where structures are compared, the most poles to try.
+        structure: poles, zeros, dead time, stability; if structures are compared, the largest number of poles.
         weights: as for `fit_transfer_function`.
-        suggest: compare all structures up to that number of poles and take the suggested one.
-        output: the responding signal of logs and tables; without it those of all tables, and of logs that hold one.
-        tests: (offset, amplitude) of those to fit, in the unit that people read (%, bar, deg); all where empty.
-        progress: called with how many are done, and of how many.
+        suggest: compare all structures up to this number of poles, and take the suggested one.
+        output: output signal of logs and tables; None takes those of all tables, and of logs with a single output.
+        tests: (offset, amplitude) of the tests to fit, in display units (%, bar, deg); empty: all.
+        progress: called with the number of finished fits and that of all.
     Raises:
-        BadInput: no frequency response to fit, none of a test asked for, or what the fit refuses.
+        BadInput: no frequency response to fit, a test without a response, or a response that the fit rejects.
     """
     chosen = _chosen(dataset, output, tests)
     to_fit, held_out = ([one for one in chosen if (one.use != "fit") == held] for held in (False, True))
@@ -172,7 +172,7 @@ def _fitted(
 
 
 def _deviations(fit: TransferFunctionFit, measured: FrequencyResponse) -> tuple[float | None, tuple[Deviation, ...]]:
-    """Relative to the thesis' reference where that was measured, and which it was."""
+    """The reference frequency in Hz, that of the thesis if it was measured, else None; and the deviations."""
     model = fit.function.response(measured.frequency, measured.test)
     reference = THESIS_REFERENCE_HZ if np.any(np.isclose(measured.frequency, THESIS_REFERENCE_HZ, rtol=1e-6)) else None
     return reference, frequency_deviations(model, measured, reference_hz=reference)

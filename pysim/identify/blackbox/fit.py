@@ -1,4 +1,4 @@
-"""Fit a transfer function to a frequency response (thesis Section 2.4, Appendix B)."""
+"""Fit of a transfer function to a frequency response (thesis Section 2.4, Appendix B)."""
 
 from __future__ import annotations
 
@@ -20,30 +20,30 @@ from pysim.identify.blackbox.uncertainty import spread
 from pysim.identify.transfer_function import TransferFunction
 from pysim.types import BadInput, FrequencyResponse
 
-UNLIKELY = 1e-3  # below this probability the residuals are not noise, and widen the intervals
+UNLIKELY = 1e-3  # p-value of the misfit below which the residuals are more than noise and widen the intervals
 
 
 def fit_transfer_function(
     response: FrequencyResponse | ComplexResponse, structure: Structure, *, weights: str = "", tries: int = 4
 ) -> TransferFunctionFit:
-    """The transfer function of that structure nearest to the measured points, in weighted least squares.
+    """Fit a transfer function of a given structure to measured gains, by weighted least squares.
 
     Args:
         response: complex gains, or gain and phase, over frequency.
-        structure: how many poles and zeros; what of the dead time is known; whether it has to be stable.
-        weights: "covariance", "uniform" or "relative"; by default the covariance where the response has one, uniform
-            where not. Real and imaginary part are weighted jointly.
-        tries: how many of the best starts are followed to their minimum.
+        structure: numbers of poles and zeros; known or unknown dead time; whether it has to be stable.
+        weights: "covariance", "uniform" or "relative"; by default the covariance if the response has one, otherwise
+            uniform. Real and imaginary part are weighted jointly.
+        tries: number of the best starts that are refined to their minimum.
     Returns:
-        the best minimum. Covariances are to first order in the noise: that given with the response, widened where the
-        residuals are larger than it explains; else that of the residuals.
+        the best minimum. Covariances are to first order in the noise, which is that of the response, enlarged if the
+        residuals are significantly larger; without a covariance it is estimated from the residuals.
     Raises:
-        BadInput: fewer measured numbers than unknowns, or weights that the response does not have.
+        BadInput: fewer measured numbers than unknowns, or weights that need a missing covariance.
     Source: thesis Eq. 2.14; starts after Sanathanan and Koerner, variable projection after Kaufman.
     """
     data = complex_response(response) if isinstance(response, FrequencyResponse) else response
     weights = weights or ("uniform" if data.covariance is None else "covariance")
-    spare = 0 if weights == "covariance" else 1  # the residuals have to tell the noise
+    spare = 0 if weights == "covariance" else 1  # the noise is estimated from the residuals
     if 2 * data.frequency.size < structure.parameters + spare:
         raise BadInput(
             f"black box: {structure.label} are {structure.parameters} numbers and {data.origin} has "
@@ -92,7 +92,7 @@ def _function(problem: Problem, minimum: Minimum) -> TransferFunction:
 
 
 def _variance(misfit: float, freedom: int, known: bool) -> float:
-    """The factor on the covariance: of the residuals, unless the noise is known and explains them."""
+    """Factor on the covariance: 1 if the known noise explains the residuals, otherwise their variance."""
     if known and (freedom == 0 or chdtrc(freedom, misfit) >= UNLIKELY):
         return 1.0
     return misfit / freedom

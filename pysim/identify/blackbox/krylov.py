@@ -1,4 +1,4 @@
-"""Polynomials times a given weight, made orthonormal on the measured points, so that any degree is well conditioned."""
+"""Polynomials times a weight, orthonormal on the measured points, which are well conditioned at any degree."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class Basis:
-    """Columns p_k(s) w(s) for polynomials p_0 ... p_m of rising degree.
+    """Columns p_k(s) w(s) for polynomials p_0 ... p_m, p_k of degree k, and a weight w.
 
     Args:
         columns: (n_f, m + 1) complex.
-        white: (2 n_f, m + 1) the same, weighted; orthonormal.
+        white: (2 n_f, m + 1) the whitened columns, which are orthonormal.
         recurrence: (m + 1, m) upper Hessenberg, s p_k = sum_j recurrence[j, k] p_j.
-        first: the value of the constant p_0.
+        first: value of the constant p_0.
     """
 
     columns: Complex
@@ -42,7 +42,7 @@ class Basis:
     def roots(self, coefficients: Array) -> Complex:
         """Roots of sum_k coefficients[k] p_k, as eigenvalues of the recurrence without its last row.
 
-        Two real numbers that LAPACK returns as a conjugate pair stay one; the leading coefficient is not zero.
+        The leading coefficient must not be zero. Nearly equal real roots may come out as a conjugate pair.
         """
         degree = coefficients.size - 1
         companion = self.recurrence[:degree, :degree].copy()
@@ -52,11 +52,11 @@ class Basis:
 
 
 def krylov_basis(start: Complex, s: Complex, degree: int, roots: Array) -> Basis:
-    """Multiply the weight `start` (n_f,) by s (n_f,) again and again, and make each column orthonormal to those before.
+    """Basis by repeated multiplication of the weight `start` (n_f,) by s (n_f,), with orthonormalisation (Arnoldi).
 
     Args:
-        degree: m, of the last polynomial.
-        roots: (n_f, 2, 2) whitening of the inner product.
+        degree: degree m of the last polynomial.
+        roots: (n_f, 2, 2) whitening of the inner product, from `whitening`.
     """
     columns = np.empty((s.size, degree + 1), dtype=np.complex128)
     white = np.empty((2 * s.size, degree + 1))
@@ -67,7 +67,7 @@ def krylov_basis(start: Complex, s: Complex, degree: int, roots: Array) -> Basis
     for k in range(degree):
         column = s * columns[:, k]
         weighted = whiten(roots, column[:, None])[:, 0]
-        for _ in range(2):  # once more against rounding
+        for _ in range(2):  # twice, to remove rounding errors
             part = white[:, : k + 1].T @ weighted
             weighted = weighted - white[:, : k + 1] @ part
             column = column - columns[:, : k + 1] @ part

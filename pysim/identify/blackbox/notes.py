@@ -1,4 +1,4 @@
-"""What to know before using a fitted transfer function."""
+"""Notes on a fitted transfer function: reasons why it may be wrong or less than asked for."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _HALF_A_TURN = 0.5  # turns
 
 
 def notes_on(fit: TransferFunctionFit, minimum: Minimum) -> list[Note]:
-    """None for a fit that is what was asked for."""
+    """Notes on the search, the bounds, the stability and superfluous numbers; none for a good fit."""
     return [*_quality(fit, minimum), *_bounds(fit, minimum), *_excess(fit)]
 
 

@@ -1,4 +1,4 @@
-"""The weighted misfit as a function of poles and dead time alone; the numerator follows by linear least squares."""
+"""Weighted residuals as a function of denominator and dead time; the numerator follows by linear least squares."""
 
 from __future__ import annotations
 
@@ -18,14 +18,14 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class Point:
-    """The best numerator for given sections and dead time.
+    """The best numerator for a given denominator and dead time.
 
     Args:
-        basis: of the numerator over the denominator, delayed.
-        coefficients: (n_z + 1,) in that basis.
+        basis: basis of the numerator, over the denominator and delayed.
+        coefficients: (n_z + 1,) of the numerator in this basis.
         model: (n_f,) complex gain.
         residual: (2 n_f,) weighted, measured minus model.
-        slopes: (n_f, n) complex, d model / d sections and dead time at fixed numerator; of all n unknowns.
+        slopes: (n_f, n) complex, derivatives of the model by all n unknowns, at a constant numerator.
     """
 
     basis: Basis
@@ -44,7 +44,7 @@ class Point:
 class Problem:
     """Data, weights and structure, with s in units of `scale` (rad/s) and dead times in 1 / `scale`.
 
-    Unknowns are the numbers of the sections (n_p,), then the dead time where it is searched for.
+    Unknowns are the denominator's numbers (n_p,), see `sections`, then the dead time if it is estimated.
     """
 
     structure: Structure
@@ -56,7 +56,7 @@ class Problem:
 
     @classmethod
     def of(cls, response: ComplexResponse, structure: Structure, roots: Array) -> Problem:
-        """Scaled by the geometric mean of the lowest and the highest frequency."""
+        """The problem, with the geometric mean of the lowest and the highest frequency as scale."""
         omega = 2 * np.pi * response.frequency
         scale = float(np.sqrt(omega[0] * omega[-1]))
         white = whiten(roots, response.values[:, None])[:, 0]
@@ -67,7 +67,7 @@ class Problem:
         return float(unknowns[-1]) if self.structure.delayed else self.structure.dead_time * self.scale
 
     def evaluate(self, unknowns: Array) -> Point:
-        """The best numerator and what is left over."""
+        """The best numerator and the residual at unknowns (n,)."""
         numbers = unknowns[: self.structure.poles]
         denominator, slopes = values_and_slopes(numbers, self.s)
         start = np.exp(-self.delay(unknowns) * self.s) / denominator
@@ -79,10 +79,10 @@ class Problem:
         return Point(basis, coefficients, model, residual, -model[:, None] * every)
 
     def jacobian(self, point: Point) -> Array:
-        """d residual / d unknowns, (2 n_f, n), at the numerator that follows.
+        """d residual / d unknowns, (2 n_f, n), with the numerator as a function of the unknowns.
 
-        Kaufman's form of variable projection (BIT 15, 1975): its product with the residual is the exact gradient,
-        since the term left out is orthogonal to the residual.
+        Kaufman's form of variable projection (BIT 15, 1975). Its product with the residual is the exact gradient,
+        since the neglected term is orthogonal to the residual.
         """
         white = whiten(self.roots, point.slopes)
         return point.basis.white @ (point.basis.white.T @ white) - white

@@ -1,4 +1,4 @@
-"""How many poles and zeros the data support."""
+"""Choice of the numbers of poles and zeros that the data support, by AICc and BIC."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from pysim.identify.blackbox.result import TransferFunctionFit
 from pysim.identify.blackbox.structure import Structure
 from pysim.types import BadInput, FrequencyResponse
 
-_ALIKE = 2.0  # AICc differences up to this count as no difference (Burnham and Anderson, 2002, Section 2.6)
+_ALIKE = 2.0  # largest difference of AICc that counts as none (Burnham and Anderson, 2002, Section 2.6)
 _TRIES = 2  # starts per structure
 
 
 @dataclass(frozen=True)
 class Candidate:
-    """One structure: its fit, and both criteria, smaller is better; only differences mean something."""
+    """One structure: its fit, and both criteria. Smaller is better; only differences are meaningful."""
 
     fit: TransferFunctionFit
     aicc: float
@@ -26,19 +26,19 @@ class Candidate:
 
     @property
     def sound(self) -> bool:
-        """Whether nothing speaks against it: all determined, nothing cancels, the search came to an end."""
+        """Whether the search converged, all numbers are determined and no pole and zero cancel."""
         return self.fit.converged and not self.fit.cancelling and not self.fit.undetermined
 
 
 @dataclass(frozen=True)
 class OrderSuggestion:
-    """Every structure that was tried, by rising AICc, and the one to take.
+    """Every structure that was tried, by rising AICc, and the suggested one.
 
     Args:
-        suggested: of the sound structures whose AICc is within 2 of the lowest sound one, that of fewest numbers.
+        suggested: the one with fewest parameters among sound structures with an AICc within 2 of the lowest sound one.
         by_bic: the sound structure of lowest BIC, for comparison.
-        noise_trusted: whether the criteria take the noise as given; else its size counts as one more unknown, because
-            no structure explains the response to its noise or none was given.
+        noise_trusted: whether the criteria take the noise as known. If not, its variance counts as one more unknown:
+            it was not given, or no structure explains the response to within the noise.
     """
 
     candidates: tuple[Candidate, ...]
@@ -59,9 +59,9 @@ def suggest_orders(
     """Fit every structure up to an order and rank them by AICc.
 
     Args:
-        most_poles: 1 ... this number of poles are tried.
-        relative_degree: at least so many more poles than zeros; 1 for responses that die out at high frequency.
-        dead_time_max: s; also try every structure with a dead time up to this.
+        most_poles: largest number of poles.
+        relative_degree: smallest excess of poles over zeros; 1 for responses that vanish at high frequency.
+        dead_time_max: s; every structure is also tried with a dead time up to this. None tries no dead time.
         stable, weights: as for a single fit.
     Raises:
         BadInput: too few frequencies for any structure.
@@ -89,9 +89,9 @@ def suggest_orders(
 
 
 def _candidate(fit: TransferFunctionFit, count: int, trusted: bool) -> Candidate:
-    """Minus twice the logarithm of the likelihood of Gaussian noise, plus what each unknown costs.
+    """AICc and BIC: minus twice the log-likelihood of Gaussian noise, plus a penalty per unknown.
 
-    The term for few data is kept where the noise is known, which would not need it: it leans to fewer poles.
+    The small-sample correction of AICc is kept for known noise, although not needed there: it favours fewer poles.
     """
     if trusted:
         deviance, unknowns = fit.misfit, fit.structure.parameters

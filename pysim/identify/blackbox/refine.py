@@ -1,4 +1,4 @@
-"""From a start to the least weighted sum of squares."""
+"""Refinement of a start to a minimum of the weighted sum of squares."""
 
 from __future__ import annotations
 
@@ -11,21 +11,21 @@ from pysim.identify.blackbox.objective import Point, Problem
 
 Array = NDArray[np.float64]
 
-STABLE_MARGIN = 1e-6  # of the scaled numbers of a section: keeps poles left of the axis in spite of rounding
+STABLE_MARGIN = 1e-6  # smallest scaled number of a section; keeps poles left of the imaginary axis despite rounding
 _TOLERANCE = 1e-11
-_EDGE = 1e-6  # of a scaled number, or of one: nearer to a limit it stands there
+_EDGE = 1e-6  # distance from a limit, relative to the number or to one, below which it counts as at the limit
 
 
 @dataclass(frozen=True)
 class Minimum:
-    """Where the search ended.
+    """The end of a search.
 
     Args:
-        unknowns: (n,) sections, then dead time, scaled.
-        point: the numerator and the residual there.
-        at_bound: (n,) whether an unknown is held by a limit.
-        converged: whether nothing was left to gain.
-        evaluations: of the model.
+        unknowns: (n,) as in `Problem`.
+        point: numerator and residual there.
+        at_bound: (n,) whether each unknown is at a limit.
+        converged: whether a tolerance of the search was reached.
+        evaluations: number of evaluations of the model.
     """
 
     unknowns: Array
@@ -36,12 +36,12 @@ class Minimum:
 
 
 def refine(problem: Problem, start: Array, *, most: int = 300) -> Minimum:
-    """Trust-region least squares from unknowns (n,), inside the box of dead times and, on request, of stable sections.
+    """Trust-region least squares from unknowns (n,), within bounds of the dead time and, if required, of stability.
 
     Args:
-        most: evaluations after which the search gives up.
+        most: largest number of evaluations.
     """
-    from scipy.optimize import least_squares  # 0.2 s to import, for those alone who fit
+    from scipy.optimize import least_squares  # takes 0.2 s to import, so only if needed
 
     if not start.size:
         return Minimum(start, problem.evaluate(start), np.zeros(0, dtype=bool), True, 1)
@@ -68,7 +68,7 @@ def refine(problem: Problem, start: Array, *, most: int = 300) -> Minimum:
         max_nfev=most,
     )
     at_low, at_high = (np.abs(found.x - end) <= _EDGE * np.maximum(np.abs(found.x), 1) for end in (low, high))
-    ended = np.where(at_low, low, np.where(at_high, high, found.x))  # the search stops a hair inside
+    ended = np.where(at_low, low, np.where(at_high, high, found.x))  # the search stops slightly inside a bound
     held = at_low | at_high
     return Minimum(ended, problem.evaluate(ended), held, bool(found.status > 0), int(found.nfev))
 

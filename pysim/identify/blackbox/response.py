@@ -1,4 +1,4 @@
-"""Measured complex gains and their noise: what a transfer function is fitted to."""
+"""Measured complex gains with their noise, to which a transfer function is fitted."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ class ComplexResponse:
 
     Args:
         frequency: (n_f,) Hz, positive, increasing.
-        values: (n_f,) complex gain, output unit per input unit; negative phase where the output lags.
-        covariance: (n_f, 2, 2) of real and imaginary part, in the square of that unit, or None where not known.
-        origin: what the numbers are, for legends and tables.
+        values: (n_f,) complex gain, output unit per input unit; the phase is negative if the output lags.
+        covariance: (n_f, 2, 2) of real and imaginary part, in the square of that unit; None if not known.
+        origin: description for legends and tables.
     Raises:
         BadInput: shapes that do not match, numbers that are not finite, frequencies that do not increase.
     """
@@ -54,7 +54,7 @@ class ComplexResponse:
 
 
 def complex_response(response: FrequencyResponse) -> ComplexResponse:
-    """Gain and phase as complex gain, with the covariance of both turned into that of real and imaginary part.
+    """Complex gain from gain and phase; the covariance of real and imaginary part from that of amplitude and phase.
 
     To first order: d G = exp(j phase) (d gain + j gain d phase), d gain = d amplitude / commanded amplitude.
     """
@@ -70,13 +70,13 @@ def complex_response(response: FrequencyResponse) -> ComplexResponse:
 
 
 def whitening(response: ComplexResponse, weights: str) -> Array:
-    """Matrices (n_f, 2, 2) that turn (real, imaginary) deviations into ones of equal, independent scatter.
+    """Matrices (n_f, 2, 2) that turn deviations (real, imaginary) into independent ones of equal variance.
 
     Args:
-        weights: "covariance": those of the response, scatter 1; "uniform": every point alike, the mean square gain
-            as 1; "relative": every point by its own gain, as equal dB and degrees.
+        weights: "covariance": by the response's covariance, to variance 1; "uniform": all points equal, over the root
+            mean square gain; "relative": each point over its own gain, which means equal dB and degrees.
     Raises:
-        BadInput: another word, or a covariance that is missing or not positive definite.
+        BadInput: unknown weights, or a covariance that is missing or not positive definite.
     """
     n_f, gain = response.frequency.size, np.abs(response.values)
     if weights == "covariance":
@@ -105,7 +105,7 @@ def _inverse_root(response: ComplexResponse) -> Array:
 
 
 def whiten(roots: Array, columns: Complex) -> Array:
-    """Complex columns (n_f, n) as real ones (2 n_f, n), weighted; real and imaginary part of a point side by side."""
+    """Complex columns (n_f, n) -> whitened real ones (2 n_f, n); the two rows of a frequency follow each other."""
     white = np.empty((columns.shape[0], 2, columns.shape[1]))
     real, imag = columns.real, columns.imag
     for row in (0, 1):

@@ -1,4 +1,4 @@
-"""A fitted transfer function with its doubt."""
+"""A fitted transfer function with covariances and intervals."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ class FittedNumber:
     """A coefficient, dead time or gain, in `unit`.
 
     Args:
-        std: standard deviation to first order; infinite where the data do not determine the number.
-        interval: lowest and highest value at the level that was asked for.
+        std: standard deviation to first order; infinite if the data do not determine the number.
+        interval: ends of the confidence interval.
     """
 
     name: str
@@ -43,7 +43,7 @@ class Root:
 
     @property
     def frequency_hz(self) -> float:
-        """Distance from the origin: of a pair, its natural frequency."""
+        """Magnitude in Hz; for a conjugate pair, its natural frequency."""
         return abs(self.value) / (2 * np.pi)
 
     @property
@@ -53,7 +53,7 @@ class Root:
 
     @property
     def damping(self) -> float:
-        """Damping ratio: 1 for a real root left of the axis, negative right of it."""
+        """Damping ratio: 1 for a negative real root; negative for a positive real part."""
         return -self.value.real / abs(self.value) if self.value else 0.0
 
     @property
@@ -70,26 +70,26 @@ class Root:
 
 @dataclass(frozen=True)
 class TransferFunctionFit:
-    """What a fit to a frequency response found.
+    """A transfer function that was fitted to a frequency response.
 
     Args:
         function: with a monic denominator.
-        structure: what was asked for.
-        data: what it was fitted to.
+        structure: the given structure.
+        data: the fitted response.
         weights: "covariance", "uniform" or "relative".
-        names: (n_p) of the estimated numbers: b_m ... b0, a_(n-1) ... a0, dead_time.
+        names: names of the n_p estimated numbers: b_m ... b0, a_(n-1) ... a0, dead_time.
         spread: (n_p, r); spread @ spread.T is their covariance.
-        undetermined: names that the data do not determine.
+        undetermined: names of numbers that the data do not determine.
         poles, zeros: with their covariances, rad/s, by rising magnitude.
-        cancelling: pairs (pole, zero) by place that the data cannot tell apart.
-        at_origin: places of the poles that the data cannot tell from integrators.
+        cancelling: indices of pairs (pole, zero) that the data do not separate.
+        at_origin: indices of poles that the data do not separate from integrators.
         standardised: (n_f, 2) residuals of real and imaginary part in standard deviations, measured minus fitted.
         misfit: weighted sum of squares.
-        freedom: measured numbers less estimated ones.
-        noise_known: whether the weights are the noise itself, so that `misfit` should be near `freedom`.
-        scatter: the factor on the noise that the covariance holds: 1, or what the residuals say.
-        converged: whether the search ended because nothing was left to gain.
-        notes: what to know before using the result.
+        freedom: degrees of freedom: number of measured numbers less that of estimated ones.
+        noise_known: whether the weights are the inverse noise, so that `misfit` should be near `freedom`.
+        scatter: factor on the noise's variance: 1, or the mean square residual.
+        converged: whether a tolerance of the search was reached.
+        notes: reasons why the result may be wrong.
     """
 
     function: TransferFunction
@@ -113,7 +113,7 @@ class TransferFunctionFit:
 
     @property
     def covariance(self) -> Array:
-        """Of the estimated numbers, (n_p, n_p), in the order of `names`, SI units."""
+        """Covariance of the estimated numbers, (n_p, n_p), in the order of `names`, SI units."""
         return self.spread @ self.spread.T
 
     @property
@@ -134,7 +134,7 @@ class TransferFunctionFit:
 
     @property
     def explains(self) -> float:
-        """The probability that noise alone makes a misfit as large as this; not a number where noise is not known."""
+        """p-value of the misfit: the probability that noise alone makes it as large; NaN if the noise is not known."""
         return float(chdtrc(self.freedom, self.misfit)) if self.noise_known else np.nan
 
     def estimates(self, level: float = 0.95) -> tuple[FittedNumber, ...]:
@@ -146,7 +146,7 @@ class TransferFunctionFit:
         )
 
     def gain(self, level: float = 0.95) -> FittedNumber:
-        """G(0) with its interval, output unit per input unit; unbounded where there may be an integrator."""
+        """G(0) with its interval, output unit per input unit; the interval is infinite if a pole may be at zero."""
         b0, a0 = self.function.numerator[-1], self.function.denominator[-1]
         if a0 == 0 or self.at_origin:
             return FittedNumber("gain", "", b0 / a0 if a0 else np.inf, np.inf, (-np.inf, np.inf))
@@ -173,7 +173,7 @@ class TransferFunctionFit:
         return q * np.linalg.norm(logarithm.real, axis=1), q * np.linalg.norm(logarithm.imag, axis=1)
 
     def quantile(self, level: float) -> float:
-        """Half width of an interval in standard deviations: normal where the noise is known, Student's t elsewhere."""
+        """Half width of an interval in standard deviations: normal if the noise is known, otherwise Student's t."""
         tail = 0.5 + level / 2
         known = self.noise_known and self.scatter == 1.0
         return float(ndtri(tail) if known or self.freedom == 0 else stdtrit(self.freedom, tail))
@@ -188,9 +188,9 @@ class TransferFunctionFit:
 def fit_percent(measured: Complex, fitted: Complex) -> float:
     """100 (1 - |measured - fitted| / |measured - mean(measured)|), Euclidean norms over the complex gains (n_f,).
 
-    This is the NRMSE measure that MATLAB's `compare` and `tfest` quote, for frequency-response data taken over the
-    complex gains, unweighted: 100 is perfect, 0 no better than one constant gain. It says little about frequencies
-    where the gain is small.
+    This is the NRMSE measure of MATLAB's `compare` and `tfest`, which for frequency-response data is over the complex
+    gains, unweighted: 100 is perfect, 0 is no better than a constant gain. Frequencies with a small gain hardly count.
+    Minus infinity if the measured gain is constant and the fit is not exact.
     """
     spread = float(np.linalg.norm(measured - np.mean(measured)))
     error = float(np.linalg.norm(measured - fitted))

@@ -1,4 +1,4 @@
-"""Poles and zeros of a minimum, each with its doubt."""
+"""Poles and zeros of a fitted transfer function, with their covariances."""
 
 from __future__ import annotations
 
@@ -25,8 +25,8 @@ class Roots:
     """Poles and zeros by rising magnitude.
 
     Args:
-        cancelling: pairs (pole, zero) by place that cancel.
-        at_origin: places of the poles that cannot be distinguished from integrators.
+        cancelling: indices of pairs (pole, zero) that cancel.
+        at_origin: indices of poles that the data do not separate from integrators.
     """
 
     poles: tuple[Root, ...]
@@ -36,11 +36,11 @@ class Roots:
 
 
 def roots_of(problem: Problem, minimum: Minimum, function: TransferFunction, doubt: Spread, variance: float) -> Roots:
-    """Of the fitted function.
+    """Poles and zeros of the fitted function.
 
     Args:
-        doubt: for data of unit scatter.
-        variance: the factor on its covariance.
+        doubt: covariances for data of unit variance.
+        variance: factor on these.
     """
     poles = problem.scale * sections.to_poles(minimum.unknowns[: problem.structure.poles])
     order = np.lexsort((poles.imag, np.abs(poles)))
@@ -59,7 +59,7 @@ def roots_of(problem: Problem, minimum: Minimum, function: TransferFunction, dou
 
 
 def _at_origin(problem: Problem, minimum: Minimum, poles: Complex, spread: Complex) -> Iterator[int]:
-    """Poles slower than all measured frequencies that are as near to zero as noise may bring them, or held there."""
+    """Indices of poles below all measured frequencies that may be zero within their noise, or are at a bound."""
     lowest = problem.scale * problem.s[0].imag
     held = problem.structure.stable and bool(np.any(minimum.at_bound[: problem.structure.poles]))
     for i, pole in enumerate(poles):
@@ -68,7 +68,7 @@ def _at_origin(problem: Problem, minimum: Minimum, poles: Complex, spread: Compl
 
 
 def _known(doubt: Spread, rows: Complex, noise: float) -> Complex:
-    """Factors (n, r) of roots with these slopes (n, q); not finite where the data do not determine the root."""
+    """Covariance factors (n, r) of roots with derivatives (n, q); infinite if the data do not determine the root."""
     spread = np.asarray(noise * doubt.of(rows), dtype=np.complex128)
     spread[doubt.touched(rows)] = np.inf
     return spread

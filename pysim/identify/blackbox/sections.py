@@ -1,8 +1,8 @@
-"""A denominator as a product of second-order sections: well conditioned at any order, and stability is a box.
+"""A denominator as a product of second-order sections: well conditioned at any order, and stability means bounds only.
 
-The numbers are, for an odd order, that of s + a first, then pairs (a_1, a_0) of s^2 + a_1 s + a_0. A section holds two
-real poles or a conjugate pair and passes from one to the other without a kink. All its poles are left of the imaginary
-axis exactly when its numbers are positive.
+The numbers are a of s + a first, if the order is odd, then pairs (a_1, a_0) of s^2 + a_1 s + a_0. A section has two
+real poles or a conjugate pair, with a smooth transition between both. Its poles are left of the imaginary axis if and
+only if its numbers are positive.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ def to_poles(numbers: Array) -> Complex:
     """The poles (n_p,), in the order of the sections."""
     single, pairs = _split(numbers)
     root = np.sqrt(pairs[:, 0].astype(np.complex128) ** 2 - 4 * pairs[:, 1])
-    # the larger root without cancellation, the smaller from their product
+    # the larger root is computed without cancellation, the smaller one from the product of both
     large = -(pairs[:, 0] + np.where(pairs[:, 0] >= 0, 1, -1) * root) / 2
     safe = np.where(large == 0, 1, large)
     small = np.where(np.abs(root.imag) > 0, np.conj(large), pairs[:, 1] / safe)
@@ -60,7 +60,7 @@ def polynomial_slopes(numbers: Array) -> Array:
 
 
 def values_and_slopes(numbers: Array, s: Complex) -> tuple[Complex, Complex]:
-    """The denominator at s (n_f,) and the slopes of its logarithm, (n_f, n_p)."""
+    """The denominator at s (n_f,), and derivatives of its logarithm by the numbers, (n_f, n_p)."""
     single, pairs = _split(numbers)
     first = s[:, None] + single
     second = s[:, None] ** 2 + pairs[:, 0] * s[:, None] + pairs[:, 1]

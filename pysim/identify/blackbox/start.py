@@ -1,9 +1,9 @@
-"""Where to begin: poles found by linear steps, for several dead times and several first guesses.
+"""Start values: poles from iterated linear least squares, for several dead times and several first guesses.
 
-Each step solves the linearised problem of Sanathanan and Koerner (IEEE Trans. Automatic Control 8, 1963), numerator -
-denominator * measured, over the denominator of the step before, as vector fitting does (Gustavsen and Semlyen, IEEE
-Trans. Power Delivery 14, 1999), with numbers of poles and zeros that stay as asked for. Numerator and denominator are
-written in polynomials that are orthonormal on the weighted points, so that high orders stay well conditioned.
+Each step solves the linearised problem of Sanathanan and Koerner (IEEE Trans. Automatic Control 8, 1963): it minimises
+numerator - denominator * measured, over the denominator of the step before, as vector fitting does (Gustavsen and
+Semlyen, IEEE Trans. Power Delivery 14, 1999). The numbers of poles and zeros stay as given. Numerator and denominator
+are polynomials that are orthonormal on the weighted points, so that high orders stay well conditioned.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 OPENING, STEPS = 4, 12
-_SAME = 1e-3  # relative difference of costs below which two starts are taken for one
-_SETTLED = 1e-5  # relative change of cost at which a walk has arrived
+_SAME = 1e-3  # relative difference of costs, and of unknowns, below which two starts count as equal
+_SETTLED = 1e-5  # relative change of the cost at which the iteration ends
 
 _Start = tuple[float, Array]  # cost and unknowns
 
@@ -37,7 +37,7 @@ def starts(problem: Problem, count: int) -> list[Array]:
     for _, unknowns in opened[: max(2 * count, len(guesses))]:
         poles, delay = to_poles(unknowns[: problem.structure.poles]), problem.delay(unknowns)
         found.append(_walk(problem, poles, delay, stable, STEPS))
-        if np.any(found[-1][1][: problem.structure.poles] < 0):  # the same again, kept stable
+        if np.any(found[-1][1][: problem.structure.poles] < 0):  # once more with stable poles
             found.append(_walk(problem, _mirror(poles), delay, True, STEPS))
     return _different(sorted(found, key=_cost), count)
 
@@ -59,7 +59,7 @@ def _apart(a: Array, b: Array) -> bool:
 
 
 def _delays(problem: Problem) -> Array:
-    """Dead times to try, in units of 1 / scale: a quarter of the highest frequency's period apart, 60 at most."""
+    """Dead times to try, in units of 1 / scale, in steps of a quarter period of the highest frequency; at most 60."""
     structure = problem.structure
     low = structure.dead_time * problem.scale
     if structure.dead_time_max is None:
@@ -70,7 +70,7 @@ def _delays(problem: Problem) -> Array:
 
 
 def _walk(problem: Problem, poles: Complex, delay: float, mirrored: bool, steps: int) -> _Start:
-    """The best poles met in so many steps; mirrored: those that come out unstable go to the left at every step."""
+    """The best unknowns of up to `steps` iterations; `mirrored` moves unstable poles to the left at every step."""
     best: _Start = (np.inf, np.empty(0))
     for _ in range(steps):
         unknowns = _unknowns(problem, poles, delay)
@@ -94,7 +94,7 @@ def _unknowns(problem: Problem, poles: Complex, delay: float) -> Array:
 
 
 def _guesses(problem: Problem) -> Iterator[Complex]:
-    """Poles spread over the measured band: lightly damped pairs, then real ones, one spread by logarithm."""
+    """First guesses: lightly damped pairs, then real poles, in equal ratios over the band; then evenly spaced pairs."""
     n, omega = problem.structure.poles, problem.s.imag
     pairs = np.geomspace(omega[0], omega[-1], n // 2 + 2)[1:-1] if n >= 2 else np.empty(0)
     odd = np.full(n % 2, -1.0 + 0j)
@@ -107,10 +107,10 @@ def _guesses(problem: Problem) -> Iterator[Complex]:
 
 
 def _relocate(problem: Problem, unknowns: Array, delay: float) -> Complex | None:
-    """One linear step: the denominator for which measured * denominator is nearest to some numerator.
+    """One linear step: poles of the denominator for which measured * denominator is closest to a numerator.
 
-    Both are spanned by orthonormal columns, so the nearest pair is that of the smallest angle between the two spaces.
-    """
+    Both are in spaces with orthonormal columns, so the closest pair is at the smallest angle between these spaces.
+    None if a pole would be infinite."""
     n = problem.structure.poles
     denominator, _ = values_and_slopes(unknowns[:n], problem.s)
     above = krylov_basis(np.exp(-delay * problem.s) / denominator, problem.s, problem.structure.zeros, problem.roots)

@@ -1,4 +1,4 @@
-"""What kind of transfer function is wanted."""
+"""Structure of a transfer function: numbers of poles and zeros, dead time, stability."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from pysim.types import BadInput
 
 @dataclass(frozen=True)
 class Structure:
-    """Numbers of poles and zeros, what of the dead time is known, and whether it has to be stable.
+    """Structure of a transfer function.
 
     Args:
-        poles: of the rational part.
-        zeros: finite ones; may exceed the poles (a controller that differentiates).
-        dead_time: s; the known one, or the smallest where it is searched for.
-        dead_time_max: s; the largest dead time to search for, None for a known one.
+        poles: number of poles of the rational part.
+        zeros: number of finite zeros; may exceed that of poles (a controller with derivative action).
+        dead_time: s; the known dead time, or the smallest one if it is estimated.
+        dead_time_max: s; the largest dead time if it is estimated; None if it is known.
         stable: allow no pole on or right of the imaginary axis.
     Raises:
-        BadInput: numbers that are negative, or a range of dead times that is empty.
+        BadInput: negative numbers, or an empty range of dead times.
     """
 
     poles: int
@@ -44,12 +44,12 @@ class Structure:
 
     @property
     def parameters(self) -> int:
-        """How many numbers are estimated."""
+        """Number of estimated parameters."""
         return self.poles + self.zeros + 1 + self.delayed
 
     @property
     def label(self) -> str:
-        """Such as "5 poles, no zeros, dead time"."""
+        """In words, such as "5 poles, no zeros, dead time"."""
         words = [
             f"{n or 'no'} {noun}{'' if n == 1 else 's'}" for n, noun in ((self.poles, "pole"), (self.zeros, "zero"))
         ]

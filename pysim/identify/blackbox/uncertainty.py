@@ -1,4 +1,4 @@
-"""From the slopes at the minimum to the covariance of coefficients, poles and zeros."""
+"""Covariance of coefficients, poles and zeros, from the Jacobian at the minimum."""
 
 from __future__ import annotations
 
@@ -16,19 +16,19 @@ from pysim.identify.blackbox.response import whiten
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-_NULL = 1e-9  # singular value, relative to the largest, below which a direction shows nothing in the data
+_NULL = 1e-9  # singular value, relative to the largest, below which a direction is undetermined
 _TOUCHED = 1e-6
 
 
 @dataclass(frozen=True)
 class Spread:
-    """Covariances as factors, for data of unit scatter.
+    """Covariances as factors, for data of unit variance.
 
     Args:
-        inner: (q, r) of the unknowns and the numerator in its basis; inner @ inner.T is their covariance.
+        inner: (q, r) for the q unknowns and numerator coefficients in the basis; inner @ inner.T is their covariance.
         null: (q, k) directions in which the residuals do not change.
-        coefficients: (p, q) d (b_m ... b0, a_(n-1) ... a0, dead time) / d those numbers, SI units.
-        poles: (n_p, q) complex, d poles / d those numbers, rad/s.
+        coefficients: (p, q) derivatives of (b_m ... b0, a_(n-1) ... a0, dead time) by these q, SI units.
+        poles: (n_p, q) complex, derivatives of the poles by these q, rad/s.
     """
 
     inner: Array
@@ -37,11 +37,11 @@ class Spread:
     poles: Complex
 
     def of(self, slopes: NDArray[Any]) -> NDArray[Any]:
-        """The factor of numbers with these slopes (n, q)."""
+        """Covariance factor (n, r) of numbers with derivatives (n, q)."""
         return np.asarray(slopes @ self.inner)
 
     def touched(self, slopes: NDArray[Any]) -> NDArray[np.bool_]:
-        """Which of the numbers with these slopes (n, q) move along a direction that the data do not show."""
+        """(n,) whether numbers with derivatives (n, q) change along an undetermined direction."""
         if not self.null.size:
             return np.zeros(slopes.shape[0], dtype=bool)
         size = np.linalg.norm(slopes, axis=1)
@@ -49,7 +49,7 @@ class Spread:
 
 
 def spread(problem: Problem, minimum: Minimum) -> Spread:
-    """At the minimum; an unknown that a bound holds counts as known."""
+    """Covariance factors at the minimum; an unknown at a bound counts as known."""
     point = minimum.point
     slopes = whiten(problem.roots, np.column_stack([point.slopes, point.basis.columns]))
     free = np.append(~minimum.at_bound, np.ones(point.coefficients.size, dtype=bool))
@@ -58,7 +58,7 @@ def spread(problem: Problem, minimum: Minimum) -> Spread:
 
 
 def _invert(slopes: Array, free: NDArray[np.bool_]) -> tuple[Array, Array]:
-    """Root of the inverse of slopes.T @ slopes over the free columns, and its null directions."""
+    """Factor of the pseudoinverse of slopes.T @ slopes over the free columns, and the null directions."""
     size = np.linalg.norm(slopes[:, free], axis=0)
     size = np.where(size > 0, size, 1.0)
     _, singular, right = np.linalg.svd(slopes[:, free] / size, full_matrices=False)
@@ -87,13 +87,13 @@ def _coefficient_slopes(problem: Problem, minimum: Minimum) -> Array:
 def _pole_slopes(problem: Problem, minimum: Minimum) -> Complex:
     n = problem.structure.poles
     slopes = np.zeros((n, minimum.unknowns.size + problem.structure.zeros + 1), dtype=np.complex128)
-    with np.errstate(invalid="ignore"):  # the slopes of a double pole are infinite
+    with np.errstate(invalid="ignore"):  # the derivatives of a double pole are infinite
         slopes[:, :n] = problem.scale * sections.pole_slopes(minimum.unknowns[:n])
     return slopes
 
 
 def zero_slopes(numerator: Array, zeros: Complex) -> Complex:
-    """d zeros / d (b_m ... b_0), (m, m + 1): -z^k / N'(z), infinite for double ones."""
+    """d zeros / d (b_m ... b_0), (m, m + 1): -z^k / N'(z), infinite for double zeros."""
     steep = np.polyval(np.polyder(numerator), zeros)
     with np.errstate(divide="ignore", invalid="ignore"):
         return np.asarray(-(zeros[:, None] ** np.arange(numerator.size - 1, -1, -1)) / steep[:, None])
