@@ -37,9 +37,9 @@ def law_class(
 ) -> str:
     """Text of the Modelica class of a learned law, to be saved as a file and named as a library.
 
-    Its parameters are the coefficients `c[1]` ... `c[m]`, with the learned values as defaults and 0 for off, or the
-    amounts and widths of a formula. Beyond the first and last knot the curve is constant. A signal that the slot does
-    not have becomes an input, which `pysim.effects.variant` connects.
+    Its parameters are the coefficients `c[1]` ... `c[m]` (`c_h` if an effect inside has a c), with the learned values
+    as defaults and 0 for off, or the amounts and widths of a formula. Beyond the first and last knot the curve is
+    constant. A signal that the slot does not have becomes an input, which `pysim.effects.variant` connects.
 
     Args:
         law: its factor and argument are variables of the slot, `v` or `SLOT.v`, other signals of the model, or `time`.
@@ -57,7 +57,8 @@ def law_class(
     """
     slot = slot if inner is None else replace(slot, filling=inner.class_name)
     parts = filling(slot, libraries, final=inner is None)
-    writer = _Writer(law, slot, libraries, formula)
+    taken = re.search(r"\bc\b", " ".join(parts.declarations))
+    writer = _Writer(law, slot, libraries, formula, "c_h" if taken else "c")
     equations = []
     sides = _sides(slot, parts)
     for left, right in parts.equations:
@@ -119,8 +120,10 @@ def _sum(value: str, term: str) -> str:
 class _Writer:
     """Writes the parts of one law's class."""
 
-    def __init__(self, law: LearnedLaw, slot: Slot, libraries: Sequence[Path], formula: Formula | None) -> None:
-        self._law, self._slot, self._formula = law, slot, formula
+    def __init__(
+        self, law: LearnedLaw, slot: Slot, libraries: Sequence[Path], formula: Formula | None, coefficients: str
+    ) -> None:
+        self._law, self._slot, self._formula, self._coefficients = law, slot, formula, coefficients
         self._units: Mapping[str, str | None] = slot_units(slot, libraries)
         self._outside: dict[str, str] = {}  # local name -> signal of the model
         self._bristles: dict[str, float] = {}  # speed -> length
@@ -201,7 +204,7 @@ class _Writer:
         if self._formula is not None:
             write = self._formula.written if function == "curve" else self._formula.slope
             return f"({write(self.argument)})"
-        return f"{function}({self.argument}, {self._knots}, {self._widths}, c)"
+        return f"{function}({self.argument}, {self._knots}, {self._widths}, {self._coefficients})"
 
     def term(self, side: _Side) -> str:
         """The expression that is added to a side's variable."""
@@ -242,7 +245,7 @@ class _Writer:
         largest = rounded_up(float(np.max(np.abs(values))))
         attributes = {"min": -REACH * largest, "max": REACH * largest, "nominal": largest, "start": 0.0}
         said = ", ".join(f"each {key}={value:g}" for key, value in attributes.items())
-        declared = f'parameter Real c[{values.size}](each unit="{self._law.unit or "1"}", {said})'
+        declared = f'parameter Real {self._coefficients}[{values.size}](each unit="{self._law.unit or "1"}", {said})'
         return [*found, f'{declared} =\n    {_listed(values)}\n    "Value of the curve at each knot, 0 = off"']
 
     @property

@@ -85,6 +85,24 @@ def test_a_law_whose_slot_has_a_pair_of_effects_stays_out(tmp_path: Path) -> Non
     assert variants.libraries == (STANDARD_LIBRARY,)
 
 
+def test_an_effect_and_the_curve_in_its_class_may_both_be_called_c(tmp_path: Path) -> None:
+    own = tmp_path / "Own.mo"
+    own.write_text("""model Drag "Drag"
+      extends HydraulicTestBench.Interfaces.PartialPistonForce;
+      parameter Real c(unit="N.s/m", min=0, max=1e5, nominal=1e3) = 0 "Drag, 0 = off";
+    equation
+      f = -c*v;
+      annotation(__HydraulicTestBench(effect="own.drag", slot="pistonForce"));
+    end Drag;""")
+    libraries = (STANDARD_LIBRARY, own)
+    drag = next(effect for effect in read_catalogue(*libraries) if effect.name == "own.drag")
+    found = with_classes(answer(LAW, FoundEffect(drag, "pistonForce", ())), PUMP, libraries)
+    (effect,), wider = with_laws(found, Variants(PUMP, libraries), tmp_path / "better")
+    assert [p.name for p in effect.parameters] == ["c", *(f"c_h[{k}]" for k in range(1, 10))]
+    model, places = wider.build([effect])
+    assert model[f"{places[effect.name]}.c_h[9]"].start == pytest.approx(6e3)
+
+
 def test_a_law_stays_out_beside_an_effect_that_is_more_than_equations(tmp_path: Path) -> None:
     own = tmp_path / "Own.mo"
     own.write_text("""model Drag "Drag"
