@@ -561,8 +561,11 @@ class Search:
 def _steps(fit: FinalFit) -> int:
     """Integration steps, rejected ones included, of the longest run of fitted and validation logs."""
     overrides, simulation = fit.candidate.held(fit.values).fixed, fit.simulation
-    every = [run for use in ("fit", "validate") for run in fit.candidate.residuals(simulation, use).runs]
-    longest = max((run.over_time(overrides, None) for run in every), key=lambda run: float(run.times[-1]) - run.start)
+    runs, others = (fit.candidate.residuals(simulation, use).runs for use in ("fit", "validate"))
+    states = fit.point.carried.states or (None,) * len(runs)
+    every = [run.over_time(overrides, own) for run, own in zip(runs, states, strict=True)]
+    every += [run.over_time(overrides, None) for run in others]
+    longest = max(every, key=lambda run: float(run.times[-1]) - run.start)
     (record,) = simulate_many(fit.candidate.model, [longest], solver=simulation.solver)
     return record.statistics["steps"] + record.statistics["rejected"]
 

@@ -249,3 +249,16 @@ def test_a_part_of_a_search_is_found_once() -> None:
     known = Checkpoint(None, "")
     fits = [refitted(Models(given("mass", measured("mass", {}))))]
     assert known.once("base", lambda: fits, [], []) == known.once("base", lambda: [], [], []) == fits
+
+
+def test_steps_are_limited_by_those_of_a_plant_that_moves() -> None:
+    """A log that only dies away, six swings: a model that began at rest would take as good as no steps."""
+    times = np.arange(0, 6, 0.01)
+    x = 0.3 * np.exp(-0.2 * times) * np.cos(6.3 * times)
+    record = Record(times, np.column_stack([0 * times, x]), ("F", "x"), ("N", "m"))
+    logs = (MeasuredRecord("decay.txt", "stochastic", "fit", record, initial="estimate"),)
+    opened = given("mass", replace(measured("mass"), records=logs), ["mass.friction"], initial="estimate")
+    search = Search(Models(opened), FINE, opened.settings, Progress(lambda told: None), Checkpoint(None, ""))
+    search.fit_base()
+    for simulation in (search.fine, search.rough):
+        assert simulation.solver.max_steps > opened.settings.patience * 6 * 5
