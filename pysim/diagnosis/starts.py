@@ -74,16 +74,24 @@ class Starts:
         return [one for one, chance in zip(found, chances, strict=True) if chance < self.settings.false_alarm]
 
     def _nearest(self, sizes: Sequence[Screened]) -> list[Runner]:
-        """Further starts at the nominal parameters, of effects that do not start off: the size with the lowest cost."""
-        best: dict[str, tuple[float, Candidate, Values]] = {}
+        """Further starts at the nominal parameters, as fitted ones may hide what an effect could do: limits at the size
+        with the lowest cost, and the effects that fit best there at their usual size, if better than none."""
+        best: dict[str, tuple[float, Screened]] = {}
         for one in sizes:
-            name, candidate, values = one.effect.name, one.candidate, own_values(one)
-            if one.start is not None or (name in best and best[name][2] == values):
+            name = one.effect.name
+            if name in best and own_values(best[name][1]) == own_values(one):
                 continue
-            cost = cost_at(candidate, values, self.simulation, self.beside(candidate.transient))
+            cost = self._cost(one.candidate, own_values(one))
             if math.isfinite(cost) and (name not in best or cost < best[name][0]):
-                best[name] = cost, candidate, values
-        return [self._runner(candidate, values, math.inf) for _, candidate, values in best.values()]
+                best[name] = cost, one
+        found = [one for _, one in sorted(best.values(), key=lambda own: own[0])]
+        limits = [one for one in found if one.start is None]
+        others = [one for one in found if one.start and best[one.effect.name][0] < self._cost(one.candidate, {})]
+        chosen = limits + others[: self.settings.finalists]
+        return [self._runner(one.candidate, own_values(one), math.inf) for one in chosen]
+
+    def _cost(self, candidate: Candidate, values: Values) -> float:
+        return cost_at(candidate, values, self.simulation, self.beside(candidate.transient))
 
     def _most(self, gain: float) -> float:
         """Largest gain in nats that a refit can have, given its first-order gain; infinite far from the floor."""

@@ -55,6 +55,20 @@ def test_far_from_the_floor_a_limit_begins_at_the_size_that_is_nearest_the_measu
     assert nearest == min(tried)  # the plant has no ends: the widest limit is nearest
 
 
+def test_far_from_the_floor_an_effect_that_fits_at_the_nominal_parameters_begins_there_too() -> None:
+    """A friction of its usual size is nearer to the logs than none, a constant force is farther away."""
+    models = Models(given("mass", measured("mass", {"mass.friction": {"F_c": 0.3}}), ("mass.friction", "mass.bias")))
+    starts = begun(models, refitted(models), near=False)
+    off, usual = starts["mass.friction"]
+    (friction,) = (effect for effect in models.session.catalogue if effect.name == "mass.friction")
+    (strength,) = friction.strengths
+    assert usual.values["mass.friction", "F_c"] == pytest.approx(strength.nominal)
+    assert off.values["mass.friction", "F_c"] < 1e-3 * strength.nominal
+    nominal = {key: value for key, value in usual.values.items() if isinstance(key, str)}
+    assert nominal == pytest.approx({"m": 1.0, "d": 2.0, "k": 40.0})
+    assert len(starts["mass.bias"]) == 1
+
+
 def test_an_effect_begins_as_good_as_off_and_only_what_promises_enough_goes_on() -> None:
     """Friction is missing: a force that is constant promises next to nothing, and stays where it starts."""
     models = Models(given("mass", measured("mass", {"mass.friction": {"F_c": 0.3}}), ("mass.friction", "mass.bias")))
