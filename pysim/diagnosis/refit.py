@@ -298,13 +298,9 @@ def race(
         resting += [one for one in running if not any(one is other for other in going)]
         running = going
     ended: list[tuple[FinalFit, float]] = []
-    reached, alike = 0.0, 1 - settings.small
     for k, (fit, before) in enumerate(sorted(_best_starts([*running, *resting]), key=_promise)):
-        most = before - fit.point.cost + (fit.point.cost - fit.expected) / settings.promising
-        if k < settings.finalists and before - fit.expected >= least and most >= alike * reached:
-            fit = finish(fit)
-        reached = max(reached, before - fit.point.cost)
-        ended.append((fit, before))
+        ends = k < settings.finalists and before - fit.expected >= least
+        ended.append((finish(fit) if ends else fit, before))
     return [fit for fit, before in sorted(ended, key=lambda one: one[0].point.cost - one[1])]
 
 
