@@ -296,8 +296,8 @@ class Search:
                 break
             if in_vain == self.settings.on_trial and gained + best.test.gain < self.settings.small * worth:
                 break
-            self.fine = finest(self.fine, best.fit.simulation)
-            present = self._keep(converged(best.fit, self.fine))
+            present = self._keep(self._fine_enough(converged(best.fit, self.fine)))
+            self.fine = finest(self.fine, present.simulation)
             steps.append(Step(present, best.added, best.test, not sure, tuple(tried.rivals)))
             steps = self._exchanged(base, steps)
             present = steps[-1].model
