@@ -539,7 +539,8 @@ class Search:
 
     def _refitted(self, candidate: Candidate, values: Values, present: FinalFit) -> FinalFit:
         """Refit a candidate from the values of another model, or of the base model if those cannot be simulated.
-        Returns an earlier refit if the new one, after a few iterations, does not promise a clearly lower cost."""
+        Returns an earlier refit if the new one, after a few iterations, does not promise a clearly lower cost. The
+        search ends where a full step promises less than 2 % (`small`) of what the model costs more than the present."""
         start = begin(candidate, values, self.rough, present)
         if not start.good:
             base = self._beside(self._fits[_key(self.models.of(()))], candidate.transient)

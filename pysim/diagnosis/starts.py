@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cache, partial
 
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate, Models, Values
@@ -76,6 +76,7 @@ class Starts:
     def _nearest(self, sizes: Sequence[Screened]) -> list[Runner]:
         """Further starts at the nominal parameters, as fitted ones may hide what an effect could do: limits at the size
         with the lowest cost, and the effects that fit best there at their usual size, if better than none."""
+        nominal = cache(lambda transient: self._cost(self.beside(transient).candidate, {}))
         best: dict[str, tuple[float, Screened]] = {}
         for one in sizes:
             name = one.effect.name
@@ -86,7 +87,7 @@ class Starts:
                 best[name] = cost, one
         found = [one for _, one in sorted(best.values(), key=lambda own: own[0])]
         limits = [one for one in found if one.start is None]
-        others = [one for one in found if one.start and best[one.effect.name][0] < self._cost(one.candidate, {})]
+        others = [one for one in found if one.start and best[one.effect.name][0] < nominal(one.candidate.transient)]
         chosen = limits + others[: self.settings.finalists]
         return [self._runner(one.candidate, own_values(one), math.inf) for one in chosen]
 

@@ -8,7 +8,7 @@ import pytest
 
 from pysim.effects import STANDARD_LIBRARY, read_catalogue
 from pysim.simulate import simulate
-from pysim.types import BadInput, Experiment, Signal
+from pysim.types import BadInput, Effect, Experiment, Signal
 from pysim.types.answer import Diagnosis, FoundEffect, LearnedLaw, Left
 from pysim.workflow.learned import keep_law, with_classes, with_laws
 from pysim.workflow.variants import Variants
@@ -20,6 +20,20 @@ LAW = LearnedLaw("pistonForce", "v", "pistonForce.x", KNOTS, 3e5 * KNOTS, 1e4 * 
 
 def answer(law: LearnedLaw, *effects: FoundEffect) -> Diagnosis:
     return Diagnosis(effects, False, Left({}, None, None), (), (), (), (), learned=(law,))
+
+
+def beside_drag(folder: Path, law: str) -> tuple[Effect, tuple[Path, ...], Diagnosis]:
+    """An effect of the user's own in the law's slot, the libraries with it, and the answer that has both."""
+    own = folder / "Own.mo"
+    own.write_text(f"""model Drag "Drag"
+      extends HydraulicTestBench.Interfaces.PartialPistonForce;
+      parameter Real c(unit="N.s/m", min=0, max=1e5, nominal=1e3) = 0 "Drag, 0 = off";
+    {law}
+      annotation(__HydraulicTestBench(effect="own.drag", slot="pistonForce"));
+    end Drag;""")
+    libraries = (STANDARD_LIBRARY, own)
+    drag = next(effect for effect in read_catalogue(*libraries) if effect.name == "own.drag")
+    return drag, libraries, with_classes(answer(LAW, FoundEffect(drag, "pistonForce", ())), PUMP, libraries)
 
 
 def test_an_answer_gets_classes_and_formulas(tmp_path: Path) -> None:
@@ -86,17 +100,7 @@ def test_a_law_whose_slot_has_a_pair_of_effects_stays_out(tmp_path: Path) -> Non
 
 
 def test_an_effect_and_the_curve_in_its_class_may_both_be_called_c(tmp_path: Path) -> None:
-    own = tmp_path / "Own.mo"
-    own.write_text("""model Drag "Drag"
-      extends HydraulicTestBench.Interfaces.PartialPistonForce;
-      parameter Real c(unit="N.s/m", min=0, max=1e5, nominal=1e3) = 0 "Drag, 0 = off";
-    equation
-      f = -c*v;
-      annotation(__HydraulicTestBench(effect="own.drag", slot="pistonForce"));
-    end Drag;""")
-    libraries = (STANDARD_LIBRARY, own)
-    drag = next(effect for effect in read_catalogue(*libraries) if effect.name == "own.drag")
-    found = with_classes(answer(LAW, FoundEffect(drag, "pistonForce", ())), PUMP, libraries)
+    _, libraries, found = beside_drag(tmp_path, "equation f = -c*v;")
     (effect,), wider = with_laws(found, Variants(PUMP, libraries), tmp_path / "better")
     assert [p.name for p in effect.parameters] == ["c", *(f"c_h[{k}]" for k in range(1, 10))]
     model, places = wider.build([effect])
@@ -104,17 +108,7 @@ def test_an_effect_and_the_curve_in_its_class_may_both_be_called_c(tmp_path: Pat
 
 
 def test_a_law_stays_out_beside_an_effect_that_is_more_than_equations(tmp_path: Path) -> None:
-    own = tmp_path / "Own.mo"
-    own.write_text("""model Drag "Drag"
-      extends HydraulicTestBench.Interfaces.PartialPistonForce;
-      parameter Real c(unit="N.s/m", min=0, max=1e5, nominal=1e3) = 0 "Drag, 0 = off";
-    algorithm
-      f := -c*v;
-      annotation(__HydraulicTestBench(effect="own.drag", slot="pistonForce"));
-    end Drag;""")
-    libraries = (STANDARD_LIBRARY, own)
-    drag = next(effect for effect in read_catalogue(*libraries) if effect.name == "own.drag")
-    found = with_classes(answer(LAW, FoundEffect(drag, "pistonForce", ())), PUMP, libraries)
+    drag, libraries, found = beside_drag(tmp_path, "algorithm f := -c*v;")
     effects, variants = with_laws(found, Variants(PUMP, libraries), tmp_path / "better")
     assert effects == [drag]
     assert variants.libraries == libraries
