@@ -1,6 +1,7 @@
 """The data set's dataset.toml, edited on the page: signals, units, noise, which records are not fitted.
 
-What edits it changes the `content` of the whole, or the `section` of a signal. What is refused is a `BadInput`."""
+What edits it changes the `content` of the whole, or the `section` of a signal. What is refused is a `BadInput`.
+"""
 
 from __future__ import annotations
 

@@ -46,7 +46,7 @@ def _build(desk: Desk) -> None:
         rows = _rows(answer)
         if not rows:
             rows = [{"effect": one["name"]} for one in effects]
-        top = max([1e-9, *(row.get("score") or 0.0 for row in rows)])
+        top = max((row["score"] for row in rows if (row.get("score") or 0.0) > 0), default=1.0)
         groups = [] if answer is None else [set(group) for group in answer.data["confusable"]]
         with box("tight").props('role="list"'):
             for rank, row in enumerate(rows, 1):

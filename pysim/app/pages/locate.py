@@ -129,10 +129,9 @@ def _below(desk: Desk, chosen: dict[str, str], laws: dict[str, Writing]) -> None
         answer = _answer(desk)
         if one:
             looks = formula_text(one["formula"], one["factor"], one["shape"]["unit"])
-            words = (
-                answer.data["reason"] if answer and name == next(iter(found)) else looks and f"It looks like {looks}."
-            )
-            text("p", str(words), "statement")
+            words = answer.data["reason"] if answer and name == next(iter(found)) else ""
+            if words or looks:
+                text("p", str(words) or f"It looks like {looks}.", "statement")
         about = str(slots[name]["about"]) if name in slots else ""
         if about:
             text("p", f"{about}.", "small")
