@@ -1,7 +1,7 @@
 """What a data set holds, and what about it should be looked at before anything is fitted."""
 
 from pysim.identify.data_check.check import DataCheck, RecordCheck, check_dataset
-from pysim.identify.data_check.clipping import clipped, plateaus
+from pysim.identify.data_check.clipping import plateaus
 from pysim.identify.data_check.clock import Clock, clock
 from pysim.identify.data_check.finding import Finding, FindingCode
 from pysim.identify.data_check.folding import share_near_nyquist
@@ -16,7 +16,6 @@ __all__ = [
     "RecordCheck",
     "Swing",
     "check_dataset",
-    "clipped",
     "clock",
     "plateaus",
     "share_near_nyquist",

@@ -13,13 +13,8 @@ _EACH = 1.5  # samples: a signal with a smaller mean length of runs is noisy
 _JUMP = 1.5  # quantisation steps: a signal that comes to rest changes by single steps
 
 
-def clipped(values: Array, low: float, high: float) -> int:
-    """Number of samples of a signal (n_t,) on plateaus at either extreme value, see `plateaus`."""
-    return sum(stop - first for first, stop in plateaus(values, low, high))
-
-
 def plateaus(values: Array, low: float, high: float) -> tuple[tuple[int, int], ...]:
-    """Samples (first, stop) of plateaus at either extreme value of the signal.
+    """Samples (first, stop) of plateaus at either extreme value of a signal (n_t,).
 
     A plateau is a run of equal samples at `low` or `high` of a moving signal: the signal enters or leaves the run by
     more than a quantisation step, or is so noisy that other neighbours are hardly ever equal. A signal that settles at

@@ -90,14 +90,12 @@ class Stretch:
         inside: samples that belong to the wave.
         start: s; the first of them, or the end of a hold before it.
         residual: root mean square residual of these samples.
-        tolerance: largest residual of a sample that belongs to the wave.
         is_noise: whether neighbouring residuals are uncorrelated."""
 
     wave: Wave
     inside: slice
     start: float
     residual: float
-    tolerance: float
     is_noise: bool
 
 
@@ -126,7 +124,7 @@ def grow(log: Log, start: tuple[Wave, slice], fit: Fit) -> Stretch:
     left_over = (log.values - wave.value(log.time))[inside]
     rms = float(np.sqrt(np.mean(left_over**2)))
     memory = float(left_over[1:] @ left_over[:-1]) / max(float(left_over @ left_over), 1e-300)
-    return Stretch(wave, inside, start_time, rms, tolerance, abs(memory) < 5 / np.sqrt(left_over.size))
+    return Stretch(wave, inside, start_time, rms, abs(memory) < 5 / np.sqrt(left_over.size))
 
 
 def _without_bend(log: Log, wave: Wave, inside: slice) -> slice:

@@ -10,8 +10,8 @@ from pysim.identify.data_check import (
     Finding,
     FindingCode,
     check_dataset,
-    clipped,
     clock,
+    plateaus,
     share_near_nyquist,
     swing,
 )
@@ -154,6 +154,11 @@ def test_the_swing_is_read_off_whatever_it_is_thought_to_be(frequency: float, th
     assert result.frequency == pytest.approx(frequency, abs=5 * np.sqrt(6 / 1000) * 0.02 / (np.pi * 4 * 2))
     assert (result.amplitude, result.offset) == (pytest.approx(2, abs=5e-3), pytest.approx(3, abs=5e-3))
     assert result.impurity == pytest.approx(0.02 / np.sqrt(2), rel=0.15)
+
+
+def clipped(values: np.ndarray, low: float, high: float) -> int:
+    """How many samples stand on plateaus."""
+    return sum(stop - first for first, stop in plateaus(values, low, high))
 
 
 def test_clipping_is_told_from_what_looks_like_it() -> None:
