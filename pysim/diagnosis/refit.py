@@ -6,7 +6,7 @@ A point is one evaluation of the objective by the optimiser. Costs are negative 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -136,6 +136,23 @@ def begun(candidate: Candidate, point: Point, simulation: Simulation, evaluate: 
     bounds = _bounds(candidate)
     state = replace(_optimiser().begin(point, bounds, squares=True), first_cost=point.cost)
     return _watched(FinalFit(candidate, _expecting(state, bounds), simulation, evaluate))
+
+
+def left_out(fit: FinalFit, sources: Collection[str]) -> FinalFit:
+    """Begin to refit a model, from its best point, without the observations of these sources; they may validate it."""
+    candidate, states, pieces = fit.candidate, list[Array | None](), list[int]()
+    known, at = fit.point.carried, 0
+    for one in candidate.residuals(fit.simulation).observations:
+        own = slice(at, at := at + len(one.runs))
+        if not set(one.sources) <= set(sources):
+            states += known.states[own]
+            pieces += known.pieces[own]
+    candidate = replace(candidate, problem=candidate.problem.without(sources), watch=None)
+    carried = Carried(tuple(states), known.nuisances, tuple(pieces))
+    evaluate = (
+        Secants(candidate, fit.simulation, None).evaluate if candidate.has_events else exact(candidate, fit.simulation)
+    )
+    return begun(candidate, evaluate(fit.point.x, carried), fit.simulation, evaluate)
 
 
 def cost_at(candidate: Candidate, values: Values, simulation: Simulation, present: FinalFit) -> float:

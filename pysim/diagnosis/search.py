@@ -1,7 +1,7 @@
 """Search for the effects that the data demand: forward selection, then backward elimination from the richest model.
 
-An effect may join without being significant (on trial). In the end each effect has to pass an F test, and neither
-validation logs (use "validate") nor left-out blocks of the data may get worse with it.
+An effect may join without being significant (on trial). In the end each effect has to pass an F test, and validation
+logs (use "validate") may not get worse with it.
 Source: general to specific: Hendry and Krolzig 2005, The Economic Journal 115:C32; Mallows 1973, Technometrics 15:661.
 """
 
@@ -468,7 +468,7 @@ class Search:
         return Found(base, final, tuple(steps), self.floors, losses, undecidable, more)
 
     def _loss(self, final: FinalFit, name: str, on_trial: set[str]) -> GainTest:
-        """Test of a part by leaving it out: F test, believable size, then validation logs and left-out blocks."""
+        """Test of a part by leaving it out: F test, believable size, then validation logs."""
         chosen = sum(one in on_trial for one in final.candidate.labels)
         choices = math.comb(max(self.tried, 1), chosen + 1) if name in on_trial else max(self.tried, 1)
         labels, transient = _key(final.candidate)
@@ -483,34 +483,40 @@ class Search:
             return replace(test, verdict=Verdict.VETOED)
         return self.vetoed(smaller, final, test)
 
-    def vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest) -> GainTest:
-        """Check a gain on validation logs and left-out blocks: VETOED if either error grows by more than chance."""
-        smaller = self._beside(smaller, larger.candidate.transient)
-        own, other = rivals.of(larger), rivals.of(smaller)
-        apart = other.residual - own.residual
-        blocks = own.blocks
-        worse = float(
-            rivals.left_out_error(own, blocks, own.level).sum() - rivals.left_out_error(other, blocks, own.level).sum()
-        )
-        share = rivals.shares_of_blocks(apart, own.level, blocks)
-        reach = rivals.reach(own, other, self.settings.tie)
-        enough = int(np.sum(share >= self.settings.seen_share)) >= self.settings.seen_blocks
-        vetoed = enough and worse > reach
-        held = self._held_out(smaller, larger)
-        if held is not None:
-            vetoed |= held[0] > held[1]
-        test = replace(test, left_out_blocks=worse, held_out=None if held is None else held[0])
-        return replace(test, verdict=Verdict.VETOED) if vetoed else test
+    def vetoed(
+        self,
+        smaller: FinalFit,
+        larger: FinalFit,
+        test: GainTest,
+        without: Sequence[tuple[FinalFit, FinalFit]] = (),
+    ) -> GainTest:
+        """Check a gain on validation logs: VETOED if their error grows by more than chance.
 
-    def _held_out(self, smaller: FinalFit, larger: FinalFit) -> tuple[float, float] | None:
-        """Rise of the validation logs' cost with the larger model, and the rise by chance, nats; None without logs."""
-        if not larger.candidate.residuals(larger.simulation, "validate").observations:
-            return None
-        opened = not (larger.candidate.law or larger.candidate.has_events)  # a curve would bend where it has no data
-        (own, cost), (other, before) = (self._beside_unfitted(one, opened) for one in (larger, smaller))
-        if own is None or other is None:
-            return None if own is other else (cost - before, 0.0)  # one cannot be simulated there: infinite
-        return cost - before, rivals.reach(own, other, self.settings.tie)
+        Args:
+            without: both models refitted without some logs, which validate them in place of validation logs.
+        """
+        smaller = self._beside(smaller, larger.candidate.transient)
+        held = self._held_out(without or [(smaller, larger)])
+        if held is None:
+            return test
+        rise, reach = held
+        return replace(test, held_out=rise, verdict=Verdict.VETOED if rise > reach else test.verdict)
+
+    def _held_out(self, pairs: Sequence[tuple[FinalFit, FinalFit]]) -> tuple[float, float] | None:
+        """Rise of the validation logs' cost with the larger models, and the rise by chance, nats; None without logs."""
+        rises, reaches = list[float](), list[float]()
+        for smaller, larger in pairs:
+            if not larger.candidate.residuals(larger.simulation, "validate").observations:
+                continue
+            opened = not (larger.candidate.law or larger.candidate.has_events)  # curves would bend without data
+            (own, cost), (other, before) = (self._beside_unfitted(one, opened) for one in (larger, smaller))
+            if own is None or other is None:
+                if own is other:
+                    continue
+                return cost - before, 0.0  # one cannot be simulated there: infinite
+            rises.append(cost - before)
+            reaches.append(rivals.reach(own, other, self.settings.tie))
+        return (sum(rises), math.hypot(*reaches)) if rises else None
 
     def _beside_unfitted(self, fit: FinalFit, opened: bool) -> tuple[rivals.Rows | None, float]:
         """Rows (None if a run fails) and cost in nats of a fit on the validation logs, which it was not fitted to.

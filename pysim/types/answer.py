@@ -52,7 +52,7 @@ class Verdict(Enum):
 
     BETTER = "better"
     NO_BETTER = "no_better"
-    VETOED = "vetoed"  # worse on logs that may choose, or on blocks left out
+    VETOED = "vetoed"  # worse on logs that may choose
     UNDECIDABLE = "undecidable"  # too few independent samples
 
 
@@ -66,7 +66,7 @@ class GainTest:
         effective_size: number of independent samples that the residuals are worth.
         p_value: chance of such a gain where the effect is absent, all that was tried counted.
         penalised: gain less the penalty of the parameters, nats; rivals are ordered by it.
-        held_out, left_out_blocks: nats by which validation logs, and blocks left out, fit worse; None if not asked.
+        held_out: nats by which validation logs fit worse; None if not asked.
         verdict: what it comes to.
     """
 
@@ -76,7 +76,6 @@ class GainTest:
     p_value: float
     penalised: float
     held_out: float | None
-    left_out_blocks: float | None
     verdict: Verdict
 
 

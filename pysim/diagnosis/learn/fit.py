@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -58,6 +58,12 @@ class LawFit:
         """The estimates without those of the curve's coefficients."""
         own = self.law.place.coefficients(self.knots.size)
         return tuple(one for one in estimates if one.name not in own)
+
+    def without(self, sources: Collection[str]) -> LawFit:
+        """Refitted with the smoothness held, without the observations of these sources."""
+        own = refit.left_out(self.fit, sources)
+        numbers = self.law, self.knots, self.unit, self.smoothness
+        return ended(_beginning(*numbers, own.candidate, own.point, own.simulation))
 
     @property
     def bare(self) -> Point:
@@ -143,9 +149,7 @@ def _beginning(
     simulation: Simulation,
 ) -> LawFit:
     """Begin a search at a point that was evaluated without the curve's prior."""
-    precision = np.zeros((bare.x.size, bare.x.size))
-    precision[-knots.size :, -knots.size :] = smoothness.precision
-    candidate = replace(candidate, precision=precision, law=law.label)
+    candidate = replace(candidate, law=law.label)
     without = exact(candidate, simulation)
 
     def evaluate(x: Array, carried: Carried) -> Point:

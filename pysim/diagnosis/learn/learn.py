@@ -15,7 +15,7 @@ from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, settled, star
 from pysim.diagnosis.learn.laws import TIME, Place, Terms, places
 from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, screen, seen
 from pysim.diagnosis.left import Floors
-from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.refit import FinalFit, converged, left_out
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
 from pysim.identify.greybox import Simulation
@@ -23,8 +23,9 @@ from pysim.types import BadInput
 from pysim.types.answer import GainTest, Verdict
 
 Say = Callable[[str], None]
-# A smaller model, a larger one and the test of its gain -> the test with vetoes by validation logs and left-out blocks.
-Veto = Callable[[FinalFit, FinalFit, GainTest], GainTest]
+# A smaller model, a larger one and the test of its gain -> the test with vetoes by validation logs.
+# Further pairs of both may have been refitted without some logs, by which they are then validated.
+Veto = Callable[[FinalFit, FinalFit, GainTest, Sequence[tuple[FinalFit, FinalFit]]], GainTest]
 
 
 @dataclass(frozen=True)
@@ -209,4 +210,18 @@ class Learner:
             return test
         if self._share(one) <= self._settings.least:
             return replace(test, verdict=Verdict.NO_BETTER)
-        return self._veto(present, one.fit, test)
+        return self._veto(present, one.fit, test, self._refitted_without(one))
+
+    def _refitted_without(self, one: LawFit) -> list[tuple[FinalFit, FinalFit]]:
+        """The present model and the law, refitted without some of the logs each time, if no log may choose.
+
+        Source: Stone 1974, Journal of the Royal Statistical Society B 36:111: cross-validation.
+        """
+        problem = self._present.candidate.problem
+        sources = [own.sources for own in problem.observations if own.use == "fit"]
+        if len(sources) < 2 or len(sources) < len(problem.observations):
+            return []
+        self._say(f"refitting {one.law.label} without some of the logs")
+        count = min(len(sources), self._settings.folds)
+        folds = [{source for own in sources[k::count] for source in own} for k in range(count)]
+        return [(converged(left_out(self._present, fold)), one.without(fold).fit) for fold in folds]

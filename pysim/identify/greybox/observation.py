@@ -115,6 +115,10 @@ class Observation(Protocol):
         """The same measurements with other runs, one for each of the present ones."""
         ...
 
+    def held_out(self) -> Observation:
+        """The same measurements with the use "validate"."""
+        ...
+
     def head(self, share: float) -> Observation:
         """The first share of a log with unknown initial states; any other observation unchanged."""
         ...

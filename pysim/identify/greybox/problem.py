@@ -60,6 +60,11 @@ class Problem:
         own = [((o.dataset, n), sd) for o in self.observations for n, sd in zip(o.channels, o.noise, strict=True)]
         return {channel: floor.sd for channel, floor in self.floors.items()} | dict(own)
 
+    def without(self, sources: Collection[str]) -> Problem:
+        """The problem with the observations of these sources held out, as validation logs are."""
+        own = [one.held_out() if set(one.sources) <= set(sources) else one for one in self.observations]
+        return replace(self, observations=tuple(own))
+
     def residuals(
         self, objective: Objective = NOISE, simulation: Simulation | None = None, *, use: str = "fit"
     ) -> WeightedResiduals:

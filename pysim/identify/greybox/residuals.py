@@ -197,10 +197,6 @@ class WeightedResiduals:
         """(n_c,) number of samples per channel."""
         return self._summed([one.samples for one in self.observations])
 
-    def of(self, use: str) -> WeightedResiduals:
-        """The observations of one use, "fit" or "validate"."""
-        return replace(self, observations=tuple(one for one in self.observations if one.use == use))
-
     def evaluate(
         self,
         model: Model,

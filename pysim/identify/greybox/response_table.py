@@ -63,6 +63,10 @@ class ResponseTable:
         """See Observation."""
         return replace(self, runs=tuple(runs))
 
+    def held_out(self) -> ResponseTable:
+        """See Observation."""
+        return replace(self, use="validate")
+
     def head(self, share: float) -> ResponseTable:
         """See Observation."""
         return self

@@ -67,6 +67,10 @@ class SteppedSines:
         """See Observation."""
         return replace(self, runs=tuple(runs))
 
+    def held_out(self) -> SteppedSines:
+        """See Observation."""
+        return replace(self, use="validate")
+
     def head(self, share: float) -> SteppedSines:
         """See Observation."""
         return self

@@ -63,6 +63,10 @@ class TimeLog:
         """See Observation."""
         return replace(self, run=runs[0])
 
+    def held_out(self) -> TimeLog:
+        """See Observation."""
+        return replace(self, use="validate")
+
     def head(self, share: float) -> TimeLog:
         """See Observation. At least twice as many measured values as free initial states are kept."""
         if not self.run.begins_anywhere:

@@ -7,7 +7,7 @@ import pytest
 
 from pysim.diagnosis import rank
 from pysim.diagnosis.candidate import Models, Values
-from pysim.diagnosis.refit import FinalFit, Runner, advance, begin, converged, race
+from pysim.diagnosis.refit import FinalFit, Runner, advance, begin, converged, left_out, race
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox.optimiser import State
 from pysim.identify.greybox.residuals import failed_point
@@ -111,3 +111,20 @@ def test_an_effect_that_is_not_believed_is_told() -> None:
     assert ("mass.friction",) not in {one.effects for one in found.rivals if one.refitted}
     told = rank(replace(models().session, catalogue=(friction, drag)))
     assert NoteCode.BEYOND_BOUND not in {note.code for note in told.notes}
+
+
+def test_a_model_refitted_without_a_log_is_that_of_the_other_logs_alone() -> None:
+    data = measured("mass", {"mass.drag": {"c_2": 0.5}}, {"d": 1.8}, fit=(1, 2), validate=(3,), length=4.0)
+    effect = catalogue("mass")["mass.drag"]
+    both, second = (
+        Models(given("mass", replace(data, records=records), initial="near rest"))
+        for records in (data.records, data.records[1:])
+    )
+    whole = converged(begin(both.of([effect]), {}, FINE))
+    fit = converged(left_out(whole, ["fit-1.txt"]))
+    alone = converged(begin(second.of([effect]), whole.values, FINE))
+    assert fit.ended
+    assert fit.values == pytest.approx(alone.values, rel=1e-3)
+    assert fit.point.cost == pytest.approx(alone.point.cost, abs=0.1)
+    held = fit.candidate.residuals(FINE, "validate").observations
+    assert [one.sources for one in held] == [("fit-1.txt",), ("validate-3.txt",)]

@@ -62,17 +62,17 @@ def found(peak: float) -> tuple[Search, FinalFit, FinalFit]:
 def test_a_model_that_cannot_run_through_the_choosing_logs_is_vetoed() -> None:
     search, base, frail = found(20.0)
     assert search.vetoed(base, frail, search.test(base, frail)).verdict is Verdict.VETOED
-    worse = search._held_out(base, frail)
-    better = search._held_out(frail, base)
+    worse = search._held_out([(base, frail)])
+    better = search._held_out([(frail, base)])
     assert worse == (math.inf, 0.0)
     assert better == (-math.inf, 0.0)
-    assert search._held_out(frail, frail) is None
+    assert search._held_out([(frail, frail)]) is None
 
 
 def test_the_choosing_logs_say_by_how_much_their_cost_rises_as_far_as_parameters_are_open() -> None:
     """Against the least cost of both uses together around the fit, sought by SciPy."""
     search, base, frail = found(2.0)
-    answer = search._held_out(base, frail)
+    answer = search._held_out([(base, frail)])
     assert answer is not None
     costs = []
     for fit in (base, frail):
@@ -95,6 +95,7 @@ def test_the_choosing_logs_say_by_how_much_their_cost_rises_as_far_as_parameters
         costs.append(plain.cost + least.cost - 0.5 * plain.square)
     assert answer[0] == pytest.approx(costs[1] - costs[0], abs=0.3)
     assert answer[1] > 0
+    assert search._held_out([(base, frail)] * 2) == pytest.approx((2 * answer[0], math.sqrt(2) * answer[1]))
 
 
 def test_a_model_that_does_not_run_beside_an_effect_is_refitted_from_the_base_model() -> None:

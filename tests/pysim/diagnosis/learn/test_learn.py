@@ -143,3 +143,27 @@ def test_a_model_without_slots_gets_a_law_in_the_equation_of_a_state() -> None:
     assert found.history[-1].validate < 1.1
     assert law.factor == "v"
     assert within_the_band(law, -60.0 * law.knots**2 / law.parameters["m"]) > 0.8
+
+
+def without_choosing_logs(*effects: dict[str, Values]) -> Session:
+    """A fitted log of each of these plants, and none that may choose."""
+    logs = [measured("mass", own, DESIGN, fit=(1 + k,), validate=()) for k, own in enumerate(effects)]
+    return given(
+        "mass", replace(logs[0], records=tuple(r for own in logs for r in own.records)), [], initial="near rest"
+    )
+
+
+def test_where_no_log_may_choose_a_law_has_to_predict_each_log_from_the_others() -> None:
+    found = learn(without_choosing_logs({"damper": {"d_2": 60.0}}, {"damper": {"d_2": 60.0}}))
+    (law,) = found.learned
+    assert law.test is not None
+    assert law.test.held_out is not None
+    assert law.test.held_out < 0
+    assert within_the_band(law, -60.0 * law.knots**2) > 0.9
+
+
+def test_a_law_that_another_log_contradicts_is_vetoed() -> None:
+    found = learn(without_choosing_logs({"damper": {"d_2": 60.0}}, {"damper": {"d_2": -20.0}}))
+    assert not found.learned
+    assert not found.complete
+    assert NoteCode.LAW_VETOED in {note.code for note in found.notes}
