@@ -12,12 +12,12 @@ from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Re
 FEWEST = 10
 
 
-def shortcomings(dataset: Dataset, free: Sequence[str], *, at_rest: bool = False) -> tuple[str, ...]:
+def shortcomings(dataset: Dataset, free: Sequence[str], initial: str = "near rest") -> tuple[str, ...]:
     """Check a data set before anything is simulated.
 
     Args:
         free: parameters that will be refitted.
-        at_rest: whether every log counts as begun at rest, whatever its record says.
+        initial: what is known of the state at a log's first sample, where its record does not say it.
     Returns:
         a note for each weakness: no log is held out, only one signal was logged, an input never moves.
     Raises:
@@ -30,7 +30,7 @@ def shortcomings(dataset: Dataset, free: Sequence[str], *, at_rest: bool = False
             f"data set {dataset.name!r} has {count} samples to fit for {len(free)} free parameters; log at least "
             f"{FEWEST * len(free)}, fit more of them, or name fewer parameters with --free"
         )
-    notes = list(_still(dataset, fitted, at_rest))
+    notes = list(_still(dataset, fitted, initial))
     if not any(record.use != "fit" for record in dataset.records):
         notes.append(
             "every record is fitted, so nothing tells how far the answer holds for other tests; hold one out "
@@ -57,11 +57,11 @@ def _outputs(record: MeasuredRecord, dataset: Dataset) -> Sequence[str]:
     return dataset.columns(record, "output")
 
 
-def _still(dataset: Dataset, fitted: Sequence[MeasuredRecord], at_rest: bool) -> Sequence[str]:
+def _still(dataset: Dataset, fitted: Sequence[MeasuredRecord], initial: str) -> Sequence[str]:
     """Notes on inputs that never move. Raises BadInput if no input moves and every log begins at rest."""
     if any(isinstance(record.data, FrequencyResponse) for record in fitted):
         return ()
-    decays = not at_rest and any(record.initial == "estimate" for record in fitted)
+    decays = any((record.initial or initial) == "estimate" for record in fitted)
     moves: dict[str, bool] = {}
     for record in fitted:
         assert isinstance(record.data, Record)

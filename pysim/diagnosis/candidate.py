@@ -46,6 +46,7 @@ class Candidate:
         places: effect name -> prefix of its parameters' names in the model.
         transient: whether stepped sines are simulated over time, since the model may have no periodic orbit.
         has_events: whether a law of its effects makes events; its Jacobian then comes from secants.
+        precision: (n, n) precision matrix of a Gaussian prior of the search variables x; None without a prior.
         law: label of a learned law in the model; "" without one.
         watch: called with the candidate's FinalFit at every iteration of its refit.
     """
@@ -56,6 +57,7 @@ class Candidate:
     places: Mapping[str, str] = field(default_factory=dict)
     transient: bool = False
     has_events: bool = False
+    precision: Array | None = field(default=None, repr=False)
     law: str = ""
     watch: Callable[[Any], object] | None = field(default=None, repr=False, compare=False)
 

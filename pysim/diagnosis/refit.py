@@ -8,6 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import compress
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,8 @@ from pysim.types import FitOutcome
 
 Array = NDArray[np.float64]
 
+# Pairs of a smaller and a larger model.
+Pairs = Sequence[tuple["FinalFit", "FinalFit"]]
 # Search variables (n,), initial states and sensor errors -> objective and Jacobian there.
 Evaluate = Callable[[Array, Carried], Point]
 
@@ -140,19 +143,13 @@ def begun(candidate: Candidate, point: Point, simulation: Simulation, evaluate: 
 
 def left_out(fit: FinalFit, sources: Collection[str]) -> FinalFit:
     """Begin to refit a model, from its best point, without the observations of these sources; they may validate it."""
-    candidate, states, pieces = fit.candidate, list[Array | None](), list[int]()
-    known, at = fit.point.carried, 0
-    for one in candidate.residuals(fit.simulation).observations:
-        own = slice(at, at := at + len(one.runs))
-        if not set(one.sources) <= set(sources):
-            states += known.states[own]
-            pieces += known.pieces[own]
+    candidate, known, simulation = fit.candidate, fit.point.carried, fit.simulation
+    observations = candidate.residuals(simulation).observations
+    kept = [set(sources).isdisjoint(one.sources) for one in observations for _ in one.runs]
     candidate = replace(candidate, problem=candidate.problem.without(sources), watch=None)
-    carried = Carried(tuple(states), known.nuisances, tuple(pieces))
-    evaluate = (
-        Secants(candidate, fit.simulation, None).evaluate if candidate.has_events else exact(candidate, fit.simulation)
-    )
-    return begun(candidate, evaluate(fit.point.x, carried), fit.simulation, evaluate)
+    carried = replace(known, states=tuple(compress(known.states, kept)), pieces=tuple(compress(known.pieces, kept)))
+    evaluate = Secants(candidate, simulation, None).evaluate if candidate.has_events else exact(candidate, simulation)
+    return begun(candidate, evaluate(fit.point.x, carried), simulation, evaluate)
 
 
 def cost_at(candidate: Candidate, values: Values, simulation: Simulation, present: FinalFit) -> float:

@@ -34,6 +34,7 @@ class Rows:
         level: (n_r,) standard deviation of the residual in the row's channel.
         series, blocks: (n_r,) numbers of the log and channel, and of the block.
         ordered: numbers of the series whose rows follow each other in time.
+        precision: (n, n) precision matrix of a prior of the free parameters; None without one.
     """
 
     residual: Array
@@ -42,6 +43,7 @@ class Rows:
     series: NDArray[np.intp]
     blocks: NDArray[np.intp]
     ordered: frozenset[int]
+    precision: Array | None = None
 
 
 def rows(candidate: Candidate, residuals: WeightedResiduals, point: Point) -> Rows:
@@ -51,7 +53,7 @@ def rows(candidate: Candidate, residuals: WeightedResiduals, point: Point) -> Ro
     level = candidate.levels(residuals, point)[own]
     jacobian = point.jacobian[own] if point.jacobian.size else np.zeros((int(own.sum()), 0))
     numbers = point.series[own], point.blocks[own], ordered
-    return Rows(point.residual[own] * level, jacobian, level, *numbers)
+    return Rows(point.residual[own] * level, jacobian, level, *numbers, candidate.precision)
 
 
 def of(fit: FinalFit) -> Rows:
@@ -160,3 +162,32 @@ def gain_test(
     )  # fmt: skip
     worth = penalised(gain, df, inflated, count)
     return GainTest(gain, math.ceil(df), count / inflated, chance, worth, None, verdict)
+
+
+def left_out_error(found: Rows, blocks: NDArray[np.intp], level: Array) -> Array:
+    """Leave-one-block-out error: of each block, the cost once only the other blocks are fitted, to first order.
+
+    Args:
+        blocks, level: (n_r,) number of each row's block, and standard deviation in which errors are counted.
+    Returns:
+        (n_b,) half sums of squares, nats.
+    Source: Allen 1974, Technometrics 16:125; Giordano and others 2019, AISTATS.
+    """
+    residual = found.residual / found.level
+    slopes = found.jacobian
+    whole = slopes.T @ slopes
+    ridge = 1e-9 * float(np.trace(whole)) * np.eye(len(whole))
+    ridge += 0.0 if found.precision is None else found.precision
+    errors = np.zeros(int(blocks.max()) + 1 if blocks.size else 0)
+    for b in range(errors.size):
+        own = blocks == b
+        part, rest = slopes[own], residual[own]
+        moved = rest + part @ np.linalg.solve(whole - part.T @ part + ridge, part.T @ rest) if len(whole) else rest
+        errors[b] = 0.5 * float(np.sum((moved * found.level[own] / level[own]) ** 2))
+    return errors
+
+
+def shares_of_blocks(changed: Array, level: Array, blocks: NDArray[np.intp]) -> Array:
+    """(n_b,) share of each block in the sum of squares of what an effect changes, over the levels."""
+    size = np.bincount(blocks, (changed / level) ** 2)
+    return np.asarray(size / max(float(size.sum()), np.finfo(float).tiny))

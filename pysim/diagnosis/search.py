@@ -1,7 +1,7 @@
 """Search for the effects that the data demand: forward selection, then backward elimination from the richest model.
 
-An effect may join without being significant (on trial). In the end each effect has to pass an F test, and validation
-logs (use "validate") may not get worse with it.
+An effect may join without being significant (on trial). In the end each effect has to pass an F test, and neither
+validation logs (use "validate") nor left-out blocks of the data may get worse with it.
 Source: general to specific: Hendry and Krolzig 2005, The Economic Journal 115:C32; Mallows 1973, Technometrics 15:661.
 """
 
@@ -19,7 +19,7 @@ from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, advance, begin, begin_anywhere, brought_near, converged, finest, race
+from pysim.diagnosis.refit import FinalFit, Pairs, advance, begin, begin_anywhere, brought_near, converged, finest, race
 from pysim.diagnosis.screen import Screened, best_of_each, screen, screened
 from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts, with_sensor_errors
@@ -468,7 +468,7 @@ class Search:
         return Found(base, final, tuple(steps), self.floors, losses, undecidable, more)
 
     def _loss(self, final: FinalFit, name: str, on_trial: set[str]) -> GainTest:
-        """Test of a part by leaving it out: F test, believable size, then validation logs."""
+        """Test of a part by leaving it out: F test, believable size, then validation logs and left-out blocks."""
         chosen = sum(one in on_trial for one in final.candidate.labels)
         choices = math.comb(max(self.tried, 1), chosen + 1) if name in on_trial else max(self.tried, 1)
         labels, transient = _key(final.candidate)
@@ -483,26 +483,23 @@ class Search:
             return replace(test, verdict=Verdict.VETOED)
         return self.vetoed(smaller, final, test)
 
-    def vetoed(
-        self,
-        smaller: FinalFit,
-        larger: FinalFit,
-        test: GainTest,
-        without: Sequence[tuple[FinalFit, FinalFit]] = (),
-    ) -> GainTest:
-        """Check a gain on validation logs: VETOED if their error grows by more than chance.
+    def vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest, without: Pairs = ()) -> GainTest:
+        """Check a gain on validation logs and left-out blocks: VETOED if either error grows by more than chance.
 
         Args:
             without: both models refitted without some logs, which validate them in place of validation logs.
         """
         smaller = self._beside(smaller, larger.candidate.transient)
-        held = self._held_out(without or [(smaller, larger)])
-        if held is None:
-            return test
-        rise, reach = held
-        return replace(test, held_out=rise, verdict=Verdict.VETOED if rise > reach else test.verdict)
+        own, other = rivals.of(larger), rivals.of(smaller)
+        share = rivals.shares_of_blocks(other.residual - own.residual, own.level, own.blocks)
+        worse = (rivals.left_out_error(one, own.blocks, own.level).sum() for one in (own, other))
+        seen = int(np.sum(share >= self.settings.seen_share)) >= self.settings.seen_blocks
+        vetoed = seen and next(worse) - next(worse) > rivals.reach(own, other, self.settings.tie)
+        if held := self._held_out(without or [(smaller, larger)]):
+            test, vetoed = replace(test, held_out=held[0]), vetoed or held[0] > held[1]
+        return replace(test, verdict=Verdict.VETOED) if vetoed else test
 
-    def _held_out(self, pairs: Sequence[tuple[FinalFit, FinalFit]]) -> tuple[float, float] | None:
+    def _held_out(self, pairs: Pairs) -> tuple[float, float] | None:
         """Rise of the validation logs' cost with the larger models, and the rise by chance, nats; None without logs."""
         rises, reaches = list[float](), list[float]()
         for smaller, larger in pairs:
@@ -510,12 +507,10 @@ class Search:
                 continue
             opened = not (larger.candidate.law or larger.candidate.has_events)  # curves would bend without data
             (own, cost), (other, before) = (self._beside_unfitted(one, opened) for one in (larger, smaller))
-            if own is None or other is None:
-                if own is other:
-                    continue
-                return cost - before, 0.0  # one cannot be simulated there: infinite
-            rises.append(cost - before)
-            reaches.append(rivals.reach(own, other, self.settings.tie))
+            if own is None and other is None:
+                continue
+            rises.append(cost - before)  # infinite if one cannot be simulated there
+            reaches.append(rivals.reach(own, other, self.settings.tie) if own and other else 0.0)
         return (sum(rises), math.hypot(*reaches)) if rises else None
 
     def _beside_unfitted(self, fit: FinalFit, opened: bool) -> tuple[rivals.Rows | None, float]:

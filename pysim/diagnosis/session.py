@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 from pysim.diagnosis.adequacy import shortcomings
-from pysim.diagnosis.learn.laws import Term
+from pysim.diagnosis.learn.laws import Terms
 from pysim.diagnosis.settings import Settings
 from pysim.effects import Slot
 from pysim.identify import THESIS_REFERENCE_HZ
@@ -23,7 +23,7 @@ from pysim.types import BadInput, Dataset, Effect, MeasuredRecord, Model, Note, 
 BuildVariant = Callable[[Sequence[Effect]], tuple[Model, Mapping[str, str]]]
 
 # Effects, and terms of learned laws -> the compiled model that has both.
-BuildLaw = Callable[[Sequence[Effect], Term], Model]
+BuildLaw = Callable[[Sequence[Effect], Terms], Model]
 
 TEST = "test"
 
@@ -148,7 +148,7 @@ def session(
         build_law=build_law,
     )
     checked = given.problems[0]
-    more = [*(Note(NoteCode.OTHER, {"text": text}) for text in shortcomings(dataset, names)), *checked.notes]
+    more = [*(Note(NoteCode.OTHER, {"text": text}) for text in shortcomings(dataset, names, initial)), *checked.notes]
     found = zip(checked.space.keys, checked.space.lower, checked.space.upper, strict=True)
     open_ = [name for name, lower, upper in found if not (math.isfinite(lower) and math.isfinite(upper))]
     more += [Note(NoteCode.UNBOUNDED, {"parameters": ", ".join(open_)})] if open_ else []

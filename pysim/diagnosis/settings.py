@@ -75,6 +75,14 @@ class Settings:
         0.5, unit="1", meaning="residual over the signal's standard deviation, above which no model is complete",
         source="a fit percent of 50: with less, the model hardly describes the plant",
     )  # fmt: skip
+    seen_share: float = setting(
+        0.1, unit="1", meaning="share of what an effect changes, above which a block of data sees the effect",
+        source="more than twice the average, as there are 24 blocks",
+    )  # fmt: skip
+    seen_blocks: int = setting(
+        3, unit="1", meaning="blocks that must see an effect before left-out blocks may veto it",
+        source="two blocks have no scatter to speak of",
+    )  # fmt: skip
     follows_t: float = setting(
         3.0, unit="1", meaning="t statistic above which the model's own signals predict the residual",
         source="a chance of 0.1 %",

@@ -52,7 +52,7 @@ class Verdict(Enum):
 
     BETTER = "better"
     NO_BETTER = "no_better"
-    VETOED = "vetoed"  # worse on logs that may choose
+    VETOED = "vetoed"  # worse on logs that may choose, or on blocks left out
     UNDECIDABLE = "undecidable"  # too few independent samples
 
 

@@ -13,7 +13,7 @@ from pysim.types import BadInput
 from pysim.workflow.model import compiled
 
 if TYPE_CHECKING:
-    from pysim.diagnosis.learn.laws import Term
+    from pysim.diagnosis.learn.laws import Terms
     from pysim.effects import Slot
     from pysim.types import Effect, Model
 
@@ -94,7 +94,7 @@ class Variants:
         made = variant(self.class_name, effects, self.libraries, name=name, values=values, comment=comment)
         return self._compiled(name, made.text, folder, fmu, fmi=fmi, platforms=platforms), made.places
 
-    def probed(self, effects: Sequence[Effect], law: Term) -> Model:
+    def probed(self, effects: Sequence[Effect], law: Terms) -> Model:
         """The model with these effects and a term at one place of it, as a table whose values are parameters.
 
         Raises:

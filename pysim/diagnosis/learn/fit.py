@@ -149,7 +149,9 @@ def _beginning(
     simulation: Simulation,
 ) -> LawFit:
     """Begin a search at a point that was evaluated without the curve's prior."""
-    candidate = replace(candidate, law=law.label)
+    precision = np.zeros((bare.x.size, bare.x.size))
+    precision[-knots.size :, -knots.size :] = smoothness.precision
+    candidate = replace(candidate, precision=precision, law=law.label)
     without = exact(candidate, simulation)
 
     def evaluate(x: Array, carried: Carried) -> Point:

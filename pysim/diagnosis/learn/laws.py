@@ -15,7 +15,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,21 +28,7 @@ Array = NDArray[np.float64]
 TIME = "time"  # of the model, which runs on the common clock of all records
 
 
-class Term(Protocol):
-    """Text that can be compiled into a model."""
-
-    @property
-    def text(self) -> str:
-        """Declarations and equations."""
-        ...
-
-    @property
-    def probes(self) -> tuple[str, ...]:
-        """Which variable is added to which equation, in the form of `fmu_build.build(probes=...)`."""
-        ...
-
-
-def wrapped(base: str, term: Term, name: str) -> str:
+def wrapped(base: str, term: Terms, name: str) -> str:
     """Modelica text of a class that extends the model `base` by a term."""
     return f'model {name} "{base} with a law more"\n  extends {base};\n{term.text}end {name};\n'
 
@@ -173,7 +158,7 @@ class Terms:
 
     @property
     def probes(self) -> tuple[str, ...]:
-        """See Term."""
+        """Which variable is added to which equation, in the form of `fmu_build.build(probes=...)`."""
         found = []
         for place in self.places:
             for i, side in enumerate(place.sides, start=1):
@@ -184,7 +169,7 @@ class Terms:
 
     @property
     def text(self) -> str:
-        """See Term."""
+        """Modelica declarations and equations."""
         declared: list[str] = []
         equations: list[str] = []
         for place in self.places:

@@ -15,7 +15,7 @@ from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, settled, star
 from pysim.diagnosis.learn.laws import TIME, Place, Terms, places
 from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, screen, seen
 from pysim.diagnosis.left import Floors
-from pysim.diagnosis.refit import FinalFit, converged, left_out
+from pysim.diagnosis.refit import FinalFit, Pairs, converged, left_out
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
 from pysim.identify.greybox import Simulation
@@ -23,9 +23,9 @@ from pysim.types import BadInput
 from pysim.types.answer import GainTest, Verdict
 
 Say = Callable[[str], None]
-# A smaller model, a larger one and the test of its gain -> the test with vetoes by validation logs.
+# A smaller model, a larger one and the test of its gain -> the test with vetoes by validation logs and left-out blocks.
 # Further pairs of both may have been refitted without some logs, by which they are then validated.
-Veto = Callable[[FinalFit, FinalFit, GainTest, Sequence[tuple[FinalFit, FinalFit]]], GainTest]
+Veto = Callable[[FinalFit, FinalFit, GainTest, Pairs], GainTest]
 
 
 @dataclass(frozen=True)
@@ -212,7 +212,7 @@ class Learner:
             return replace(test, verdict=Verdict.NO_BETTER)
         return self._veto(present, one.fit, test, self._refitted_without(one))
 
-    def _refitted_without(self, one: LawFit) -> list[tuple[FinalFit, FinalFit]]:
+    def _refitted_without(self, one: LawFit) -> Pairs:
         """The present model and the law, refitted without some of the logs each time, if no log may choose.
 
         Source: Stone 1974, Journal of the Royal Statistical Society B 36:111: cross-validation.

@@ -12,11 +12,13 @@ from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.rivals import (
     Rows,
     effective,
+    left_out_error,
     of,
     p_value,
     penalised,
     rows,
     samples,
+    shares_of_blocks,
     tolerance,
 )
 from tests.pysim.diagnosis.plants import given, measured, refitted
@@ -138,6 +140,28 @@ def test_what_changes_nothing_has_no_colour() -> None:
     assert effective(made(np.ones(100)), np.zeros(100)) == 1.0
 
 
+def test_blocks_left_out_are_predicted_by_the_others() -> None:
+    """On a linear model first order is exact: every block against a regression that was made without it."""
+    rng = np.random.default_rng(7)
+    n = 300
+    blocks, level = rng.integers(0, 7, n).astype(np.intp), rng.uniform(0.2, 5.0, n)
+    table = rng.standard_normal((n, 4)) * [1.0, 10.0, 0.1, 3.0]
+    values = table @ [1.0, -0.2, 5.0, 0.3] + level * rng.standard_normal(n)
+    other = rng.uniform(0.2, 5.0, n)  # level of the model that is compared
+    best = np.linalg.lstsq(table / level[:, None], values / level, rcond=None)[0]
+    found = left_out_error(made(values - table @ best, -table / level[:, None], level=level), blocks, other)
+    for b in range(7):
+        kept = blocks != b
+        refit = np.linalg.lstsq(table[kept] / level[kept, None], values[kept] / level[kept], rcond=None)[0]
+        missed = (values - table @ refit)[~kept] / other[~kept]
+        assert found[b] == pytest.approx(missed @ missed / 2, rel=1e-5)
+
+
+def test_a_model_without_parameters_is_as_wrong_as_it_is() -> None:
+    rest, blocks = np.array([1.0, 2.0, 3.0]), np.array([0, 1, 1], dtype=np.intp)
+    assert left_out_error(made(rest), blocks, np.ones(3)) == pytest.approx([0.5, 6.5])
+
+
 @pytest.mark.parametrize("kept", [0.0, 0.8])
 def test_the_difference_of_two_gains_scatters_as_far_as_its_tolerance(kept: float) -> None:
     rng = np.random.default_rng(8)
@@ -148,6 +172,13 @@ def test_the_difference_of_two_gains_scatters_as_far_as_its_tolerance(kept: floa
     inflated = float(np.mean([effective(made(own, level=np.full(n, level)), level * apart) for own in noise[:200]]))
     reach = tolerance(inflated, level * apart, np.full(n, level), 2.0)
     assert reach == pytest.approx(2 * gains.std(), rel=0.1)
+
+
+def test_shares_of_blocks_are_those_of_the_squares() -> None:
+    change, level = np.array([2.0, 2.0, 6.0, 1.0]), np.array([2.0, 1.0, 2.0, 1.0])
+    blocks = np.array([0, 0, 1, 3], dtype=np.intp)
+    assert shares_of_blocks(change, level, blocks) == pytest.approx(np.array([5, 9, 0, 1]) / 15)
+    assert shares_of_blocks(np.zeros(4), level, blocks).tolist() == [0.0] * 4
 
 
 def test_rows_of_a_fit_are_its_samples_in_their_own_units() -> None:
