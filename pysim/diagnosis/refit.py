@@ -145,7 +145,7 @@ def left_out(fit: FinalFit, sources: Collection[str]) -> FinalFit:
     """Begin to refit a model, from its best point, without the observations of these sources; they may validate it."""
     candidate, known, simulation = fit.candidate, fit.point.carried, fit.simulation
     observations = candidate.residuals(simulation).observations
-    kept = [set(sources).isdisjoint(one.sources) for one in observations for _ in one.runs]
+    kept = [not set(one.sources) <= set(sources) for one in observations for _ in one.runs]
     candidate = replace(candidate, problem=candidate.problem.without(sources), watch=None)
     carried = replace(known, states=tuple(compress(known.states, kept)), pieces=tuple(compress(known.pieces, kept)))
     evaluate = Secants(candidate, simulation, None).evaluate if candidate.has_events else exact(candidate, simulation)

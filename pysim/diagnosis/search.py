@@ -492,9 +492,9 @@ class Search:
         smaller = self._beside(smaller, larger.candidate.transient)
         own, other = rivals.of(larger), rivals.of(smaller)
         share = rivals.shares_of_blocks(other.residual - own.residual, own.level, own.blocks)
-        worse = (rivals.left_out_error(one, own.blocks, own.level).sum() for one in (own, other))
         seen = int(np.sum(share >= self.settings.seen_share)) >= self.settings.seen_blocks
-        vetoed = seen and next(worse) - next(worse) > rivals.reach(own, other, self.settings.tie)
+        after, before = (rivals.left_out_error(one, own.blocks, own.level).sum() for one in (own, other))
+        vetoed = seen and after - before > rivals.reach(own, other, self.settings.tie)
         if held := self._held_out(without or [(smaller, larger)]):
             test, vetoed = replace(test, held_out=held[0]), vetoed or held[0] > held[1]
         return replace(test, verdict=Verdict.VETOED) if vetoed else test
@@ -510,8 +510,8 @@ class Search:
             if own is None and other is None:
                 continue
             rises.append(cost - before)  # infinite if one cannot be simulated there
-            reaches.append(rivals.reach(own, other, self.settings.tie) if own and other else 0.0)
-        return (sum(rises), math.hypot(*reaches)) if rises else None
+            reaches.append(0.0 if own is None or other is None else rivals.reach(own, other, self.settings.tie))
+        return (math.inf if math.inf in rises else sum(rises), math.hypot(*reaches)) if rises else None
 
     def _beside_unfitted(self, fit: FinalFit, opened: bool) -> tuple[rivals.Rows | None, float]:
         """Rows (None if a run fails) and cost in nats of a fit on the validation logs, which it was not fitted to.

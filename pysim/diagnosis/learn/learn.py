@@ -24,7 +24,7 @@ from pysim.types.answer import GainTest, Verdict
 
 Say = Callable[[str], None]
 # A smaller model, a larger one and the test of its gain -> the test with vetoes by validation logs and left-out blocks.
-# Further pairs of both may have been refitted without some logs, by which they are then validated.
+# Pairs of both that were refitted without some logs are validated by these logs.
 Veto = Callable[[FinalFit, FinalFit, GainTest, Pairs], GainTest]
 
 
@@ -217,11 +217,10 @@ class Learner:
 
         Source: Stone 1974, Journal of the Royal Statistical Society B 36:111: cross-validation.
         """
-        problem = self._present.candidate.problem
-        sources = [own.sources for own in problem.observations if own.use == "fit"]
-        if len(sources) < 2 or len(sources) < len(problem.observations):
+        logs = self._present.candidate.problem.observations
+        if len(logs) < 2 or any(log.use != "fit" for log in logs):
             return []
         self._say(f"refitting {one.law.label} without some of the logs")
-        count = min(len(sources), self._settings.folds)
-        folds = [{source for own in sources[k::count] for source in own} for k in range(count)]
+        count = min(len(logs), self._settings.folds)
+        folds = [{source for log in logs[k::count] for source in log.sources} for k in range(count)]
         return [(converged(left_out(self._present, fold)), one.without(fold).fit) for fold in folds]

@@ -67,6 +67,7 @@ def test_a_model_that_cannot_run_through_the_choosing_logs_is_vetoed() -> None:
     assert worse == (math.inf, 0.0)
     assert better == (-math.inf, 0.0)
     assert search._held_out([(frail, frail)]) is None
+    assert search._held_out([(base, frail), (frail, base)]) == (math.inf, 0.0)
 
 
 def test_the_choosing_logs_say_by_how_much_their_cost_rises_as_far_as_parameters_are_open() -> None:
