@@ -188,7 +188,7 @@ def advance(fit: FinalFit, points: int, enough: float = 0.0) -> FinalFit:
         if state.outcome is not None:
             break
         proposal = optimiser.propose(state, bounds)
-        carried = state.best.carried_to(proposal.x, proposal.share)
+        carried = state.best.carried_to(proposal.x, proposal.damping)
         trial = fit.evaluate(proposal.x, carried)
         state = optimiser.tell(state, proposal, trial, bounds)
         _watched(replace(fit, state=state))

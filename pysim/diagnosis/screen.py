@@ -226,7 +226,7 @@ def _screened(
         if not point.good:
             continue
         change, left = changed(point)
-        if 2 * point.gain > sizes.moved * float(left @ left):
+        if 2 * point.own_gain() > sizes.moved * float(left @ left):
             moved = point.carried_to(np.zeros(0))
             again = residuals.evaluate(candidate.model, space, np.zeros(0), moved, jacobian=False, states=False)
             if again.good and again.cost < point.cost:

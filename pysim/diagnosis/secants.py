@@ -57,7 +57,8 @@ class Secants:
                 change = residual - self._at[1] - self._slopes @ step
                 self._slopes = np.asarray(self._slopes + np.outer(change, step) / square)
         self._at = x, residual
-        return replace(point, jacobian=self._slopes / size[:, None], steps=self._no_steps(point, x.size))
+        steps = tuple(s and s._replace(by=np.zeros((len(s.by), x.size))) for s in point.steps)
+        return replace(point, jacobian=self._slopes / size[:, None], steps=steps)
 
     def _plain(self, x: Array, carried: Carried) -> Point:
         candidate = self._candidate
@@ -92,7 +93,3 @@ class Secants:
                 break
             step *= _LONGER
         return column
-
-    @staticmethod
-    def _no_steps(point: Point, n: int) -> tuple[tuple[Array, Array] | None, ...]:
-        return tuple(None if step is None else (step[0], np.zeros((step[0].size, n))) for step in point.steps)

@@ -7,6 +7,7 @@ with more unknowns. Logs whose initial states are known, or near rest, are not s
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from dataclasses import replace
 from functools import partial
@@ -69,15 +70,19 @@ def _settled(residuals: WeightedResiduals, model: Model, space: ParameterSpace, 
 
 def _settle(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x: Array, carried: Carried) -> Point:
     best = residuals.evaluate(model, space, x, carried, jacobian=False)
-    share = 1.0
+    radius = math.inf
     for _ in range(_SETTINGS.rounds):
-        if not best.good or share * (2 - share) * best.gain < _SETTINGS.settled:
+        damping = best.own_damping(radius)
+        if not best.good or best.own_gain(damping) < _SETTINGS.settled:
             break
-        trial = residuals.evaluate(model, space, x, best.carried_to(x, share), jacobian=False)
+        trial, length = (
+            residuals.evaluate(model, space, x, best.carried_to(x, damping), jacobian=False),
+            best.own_length(damping),
+        )
         if trial.cost < best.cost:
-            best, share = trial, min(1.0, 2 * share)
+            best, radius = trial, 2 * radius
         else:
-            share *= 0.25
+            radius = 0.25 * length
     return best
 
 

@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.optimiser import State
-from pysim.identify.greybox.residuals import Carried, Point
+from pysim.identify.greybox.residuals import Carried, OwnStep, Point
 from pysim.io import write_file
 from pysim.types import BadInput, FitOutcome
 
@@ -126,7 +126,7 @@ class Checkpoint:
         write_file(path, "".join(f"{line}\n" for line in keep))
 
 
-_PLAIN = ("x", "cost", "residual", "jacobian", "levels", "squares", "known", "more", "blocks", "series", "gain")
+_PLAIN = ("x", "cost", "residual", "jacobian", "levels", "squares", "known", "more", "blocks", "series")
 
 
 def _arrays(point: Point) -> dict[str, Array]:
@@ -137,7 +137,7 @@ def _arrays(point: Point) -> dict[str, Array]:
         if value is not None:
             found[f"carried_{i}"] = value
         if step is not None:
-            found[f"step_{i}"], found[f"by_{i}"] = step
+            found |= {f"{name}_{i}": part for name, part in step._asdict().items()}
     return found | {"count": np.array(len(values)), "pieces": np.array(point.carried.pieces, dtype=np.int64)}
 
 
@@ -146,7 +146,8 @@ def _point(arrays: Mapping[str, Array]) -> Point:
     values, steps = [], []
     for i in range(int(arrays["count"])):
         values.append(arrays.get(f"carried_{i}"))
-        steps.append((arrays[f"step_{i}"], arrays[f"by_{i}"]) if f"step_{i}" in arrays else None)
+        own = [arrays[f"{name}_{i}"] for name in OwnStep._fields if f"{name}_{i}" in arrays]
+        steps.append(OwnStep(*own) if own else None)
     nuisances = values.pop()
     assert nuisances is not None
     plain: dict[str, Any] = {name: float(arrays[name]) if arrays[name].ndim == 0 else arrays[name] for name in _PLAIN}

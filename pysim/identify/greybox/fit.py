@@ -183,7 +183,7 @@ class _Searches:
         def first() -> Point:
             """The end of that step, or the end of the rough search if its cost is lower."""
             step = optimiser.propose(optimiser.begin(best.best, bounds, self.objective.squares), bounds)
-            carried = best.best.carried_to(step.x, step.share)
+            carried = best.best.carried_to(step.x, step.damping)
             ahead = residuals.evaluate(problem.model, problem.space, step.x, carried)
             if ahead.good and ahead.cost < best.best.cost:
                 return ahead
@@ -328,7 +328,7 @@ def _at_levels(
     best, model, space = state.best, problem.model, problem.space
     if optimiser.smooth_only and objective.measure is Measure.SIGNAL and not state.memory.get("turned"):
         last = optimiser.propose(state, Bounds(*space.bounds()))
-        carried = best.carried_to(last.x, last.share)
+        carried = best.carried_to(last.x, last.damping)
         answer = residuals.simulate(model, space, last.x, carried)
         point = residuals.with_priors(residuals.weigh(last.x, answer, carried, last.x.size), space)
         if point.good and point.cost < best.cost + blur_of(best):

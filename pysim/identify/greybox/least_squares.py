@@ -31,8 +31,9 @@ class GaussNewton:
 
     Each step minimises |r + J p|^2 + damping |p|^2 within the bounds, with the smallest damping that keeps |p| inside
     the radius. A direction the data do not determine has no slope, so the damping keeps the search from drifting along.
-    What belongs to single logs goes along by its own linear step, a share of it after steps that were too long. The
-    levels of the residuals are held within a step and follow between steps.
+    Initial states and nuisances go along by steps of their own, inside a radius of their own. After a step that was too
+    long the parameters are tried alone, which tells whose step it was. The levels of the residuals are held within a
+    step and follow between steps.
 
     Args:
         max_iterations: points to try.
@@ -74,10 +75,11 @@ class GaussNewton:
 
     def propose(self, state: State, bounds: Bounds) -> Proposal:
         """See Optimiser."""
-        step, share = _Step.at(state.best, bounds), state.memory.get("share", 1.0)
-        p = step.within(state.memory["radius"], _SETTINGS.spare)
-        promised = step.predicted(p) + _own_gain(state)
-        return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), promised, share)
+        step, memory = _Step.at(state.best, bounds), state.memory
+        damping = math.inf if memory.get("alone") else state.best.own_damping(memory.get("own", math.inf))
+        p = step.within(memory["radius"], _SETTINGS.spare)
+        promised = step.predicted(p) + state.best.own_gain(damping)
+        return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), promised, damping)
 
     def tell(self, state: State, proposal: Proposal, trial: Point, bounds: Bounds) -> State:
         """See Optimiser."""
@@ -88,13 +90,20 @@ class GaussNewton:
         if proposal.predicted < blur and ratio <= _NONE and actual > -blur:
             memory = {**state.memory, "radius": _POOR * length}
             return self._lost(replace(state, best=trial, tried=state.tried + 1, memory=memory), bounds)
-        share, failed = min(2 * proposal.share, 1.0), state.memory.get("failed", math.inf)
+        memory, failed = {**state.memory, "alone": 0.0}, state.memory.get("failed", math.inf)
+        own, own_length = state.best.own_gain(proposal.damping), state.best.own_length(proposal.damping)
         if ratio < _POOR:
             shorter = _best_share(state.best, trial, proposal) if trial.good else _POOR
-            radius, share, failed = length * shorter, proposal.share * shorter, length
-        elif ratio > _GOOD and length > 0.8 * radius:
-            radius, failed = max(radius, min(2 * radius, _GOOD * failed)), failed / _GOOD
-        memory = {**state.memory, "radius": radius, "failed": failed, "share": share if state.best.gain > 0 else 1.0}
+            if own > self.tolerance or own > 0.5 * proposal.predicted:
+                memory |= {"own": own_length * shorter, "alone": float(own < 0.5 * proposal.predicted)}
+            else:
+                memory |= {"radius": length * shorter, "failed": length}
+        elif ratio > _GOOD:
+            if length > 0.8 * radius:
+                memory |= {"radius": max(radius, min(2 * radius, _GOOD * failed)), "failed": failed / _GOOD}
+            if own_length > 0.8 * memory.get("own", math.inf):
+                memory["own"] = 2 * memory["own"]
+        radius = memory["radius"]
         state = replace(state, tried=state.tried + 1, memory=memory)
         if ratio > _NONE:
             taken = replace(state, best=trial, memory={**state.memory, "length": length})
@@ -103,7 +112,7 @@ class GaussNewton:
             state = replace(state, memory={**state.memory, "turned": 1.0})
         if trial.good and self._bends(state, bounds):
             return self._lost(state, bounds)
-        if radius < _SHORTEST and share * share * state.best.gain < self.tolerance:
+        if radius < _SHORTEST and _own_gain(state) < self.tolerance:
             return _ended(state, FitOutcome.STALLED, str(trial.failure or f"the last step was {length:.1g} long"))
         return self._counted(state)
 
@@ -124,7 +133,7 @@ class GaussNewton:
 
     def _examined(self, state: State, bounds: Bounds) -> State:
         """Whether a full step from here would still gain something, or one as far as steps were seen to do so."""
-        gain = _Step.at(state.best, bounds).full_gain + state.best.gain
+        gain = _Step.at(state.best, bounds).full_gain + state.best.own_gain()
         if gain <= self._small(state.best):
             return _ended(state, FitOutcome.CONVERGED, f"a full step would lower the objective by {gain:.2g} nats")
         if state.memory.get("turned") and self._bends(state, bounds):
@@ -141,9 +150,8 @@ class GaussNewton:
 
 
 def _own_gain(state: State) -> float:
-    """nats that the share which is taken of the step of what belongs to single logs promises."""
-    share = state.memory.get("share", 1.0)
-    return share * (2 - share) * state.best.gain
+    """nats that the own step inside its radius promises."""
+    return state.best.own_gain(state.best.own_damping(state.memory.get("own", math.inf)))
 
 
 def blur_of(point: Point) -> float:
@@ -159,8 +167,8 @@ def _turned(there: Point, way: Array) -> bool:
 def _best_share(here: Point, there: Point, proposal: Proposal) -> float:
     """Where on the way to a point that was too far the cost is least: a cubic through both costs and slopes."""
     way = proposal.x - here.x
-    slopes = [float(point.residual @ (point.jacobian @ way)) - 2 * proposal.share * point.gain for point in (here,)]
-    slopes.append(float(there.residual @ (there.jacobian @ way)))
+    slopes = [float(point.residual @ (point.jacobian @ way)) for point in (here, there)]
+    slopes[0] -= 2 * here.own_gain(proposal.damping)
     s = np.linspace(0.0, 1.0, 41)[2:37]
     rise = there.cost - here.cost
     cost = (3 - 2 * s) * s**2 * rise + s * (1 - s) ** 2 * slopes[0] + s**2 * (s - 1) * slopes[1]

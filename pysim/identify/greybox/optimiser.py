@@ -27,12 +27,12 @@ class Bounds(NamedTuple):
 class Proposal(NamedTuple):
     """A point to try, by how much the optimiser's own measure is expected to fall there, and what goes along.
 
-    `share` of the step of what belongs to single logs, as their initial states.
+    `damping` of the steps of what is estimated beside the parameters, as initial states; infinite if these wait.
     """
 
     x: Array
     predicted: float
-    share: float = 1.0
+    damping: float = 0.0
 
 
 @dataclass(frozen=True)

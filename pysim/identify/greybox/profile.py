@@ -135,7 +135,7 @@ class _Walker:
 
         def evaluate(x: Array, carried: Carried) -> Point:
             point = whole(np.insert(x, place, held), carried)
-            steps = tuple(None if one is None else (one[0], np.delete(one[1], place, axis=1)) for one in point.steps)
+            steps = tuple(s and s._replace(by=np.delete(s.by, place, axis=1)) for s in point.steps)
             return replace(point, x=x, jacobian=np.delete(point.jacobian, place, axis=1), steps=steps)
 
         return evaluate

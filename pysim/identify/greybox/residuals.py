@@ -33,6 +33,8 @@ Rows = NDArray[np.intp]  # a number for each row
 
 Channel = tuple[str, str]  # data set and signal
 BEFOREHAND = -1  # block of the rows of priors
+# Least and largest damping of a step, over the information of a column of norm 1.
+_DAMPING = 1e-24, 1e24
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,36 @@ class Carried:
     states: tuple[Array | None, ...] = ()
     nuisances: Array = field(default_factory=lambda: np.zeros(0))
     pieces: tuple[int, ...] = ()
+
+
+class OwnStep(NamedTuple):
+    """Gauss-Newton step of what is estimated beside the parameters: initial states, an orbit's state, or nuisances.
+
+    Args:
+        by: (n_s, n) its derivative by x.
+        back: (n_s, m) from the directions of the singular value decomposition to the unknowns.
+        sizes, inner: (m,) singular values, and residual along each direction.
+        through: (n_s, k) its derivative by the steps of the k nuisances.
+    """
+
+    by: Array
+    back: Array
+    sizes: Array
+    inner: Array
+    through: Array
+
+    @classmethod
+    def none(cls, by: Array) -> OwnStep:
+        """Without a step at constant x."""
+        return cls(by, np.zeros((len(by), 0)), np.zeros(0), np.zeros(0), np.zeros((len(by), 0)))
+
+    def kept(self, damping: float) -> Array:
+        """(m,) share of the full step along each direction (Levenberg-Marquardt); damping may be 0 or infinite."""
+        return self.sizes**2 / (self.sizes**2 + damping)
+
+    def at(self, damping: float) -> Array:
+        """The step (n_s,) at constant x, without the part by the nuisances."""
+        return np.asarray(-self.back @ (self.kept(damping) * self.inner / self.sizes))
 
 
 @dataclass(frozen=True)
@@ -68,9 +100,7 @@ class Point:
             priors of parameters have the block BEFOREHAND.
         series: (n_r,) number of the log and channel that each row belongs to, in the order of time; -1 for priors.
         carried: initial states, orbits and nuisances at this point.
-        steps: per array of `carried`, its Gauss-Newton step at constant x (n_s,), and the step's derivative by x
-            (n_s, n).
-        gain: nats by which these steps would lower the objective at constant x, if the model were linear.
+        steps: per array of `carried`, its Gauss-Newton step; None if it is held.
         failure: why the model could not be simulated; None if it could.
     """
 
@@ -85,8 +115,7 @@ class Point:
     blocks: NDArray[np.intp] = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     series: NDArray[np.intp] = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
     carried: Carried = field(default_factory=Carried)
-    steps: tuple[tuple[Array, Array] | None, ...] = ()
-    gain: float = 0.0
+    steps: tuple[OwnStep | None, ...] = ()
     failure: Failure | None = None
 
     @property
@@ -112,23 +141,44 @@ class Point:
 
     def with_columns(self, columns: Sequence[int]) -> Point:
         """The point with only these parameters free, in this order."""
-        steps = tuple(step if step is None else (step[0], step[1][:, columns]) for step in self.steps)
+        steps = tuple(step if step is None else step._replace(by=step.by[:, columns]) for step in self.steps)
         return replace(self, x=self.x[columns], jacobian=self.jacobian[:, columns], steps=steps)
 
-    def carried_to(self, x: Array, share: float = 1.0) -> Carried:
-        """`carried` at another point x (n,), to first order, with `share` of the step at constant x."""
+    def own_gain(self, damping: float = 0.0) -> float:
+        """nats by which damped steps at constant x would lower the objective, if the model were linear."""
+        kept = [(step.kept(damping), step.inner) for step in self.steps if step is not None]
+        return 0.5 * sum(float(np.sum(inner**2 * share * (2 - share))) for share, inner in kept)
+
+    def own_length(self, damping: float) -> float:
+        """Length of the damped steps at constant x, in levels of the residual."""
+        kept = [(step.kept(damping), step) for step in self.steps if step is not None]
+        return math.sqrt(sum(float(np.sum((share * step.inner / step.sizes) ** 2)) for share, step in kept))
+
+    def own_damping(self, length: float) -> float:
+        """The least damping with which the steps at constant x are no longer than `length`; 0 if they are not."""
+        if self.own_length(0.0) <= length:
+            return 0.0
+        low, high = _DAMPING
+        while high > 1.1 * low:  # the length falls as the damping grows
+            middle = math.sqrt(low * high)
+            low, high = (middle, high) if self.own_length(middle) > length else (low, middle)
+        return high
+
+    def carried_to(self, x: Array, damping: float = 0.0) -> Carried:
+        """`carried` at another point x (n,), to first order, with the damped step at constant x."""
         if not self.steps:
             return Carried()
-        moved = []
+        moved, last = list[Array | None](), self.steps[-1]
+        nuisances = np.zeros(0) if last is None else last.at(damping)
         for value, step in zip((*self.carried.states, self.carried.nuisances), self.steps, strict=True):
             if value is not None and step is not None:
-                value = value + share * step[0]
-                if step[1].size:  # empty if the point has no Jacobian
-                    value = value + step[1] @ (x - self.x)
+                value = value + step.at(damping) + (step.through @ nuisances if step.through.size else 0.0)
+                if step.by.size:  # empty if the point has no Jacobian
+                    value = value + step.by @ (x - self.x)
             moved.append(value)
-        nuisances = moved[-1]
-        assert nuisances is not None
-        return Carried(tuple(moved[:-1]), nuisances, self.carried.pieces)
+        sizes = moved.pop()
+        assert sizes is not None
+        return Carried(tuple(moved), sizes, self.carried.pieces)
 
 
 def with_rows(point: Point, residual: Array, slopes: Array, block: int) -> Point:
@@ -299,7 +349,7 @@ class WeightedResiduals:
         states, steps = _orbits(answer, n)
         return Point(
             x, cost, residual, jacobian,
-            carried=Carried(tuple(states)), steps=(*steps, (np.zeros(0), np.zeros((0, n)))),
+            carried=Carried(tuple(states)), steps=(*steps, OwnStep.none(np.zeros((0, n)))),
         )  # fmt: skip
 
     def _levelled(
@@ -348,7 +398,7 @@ class WeightedResiduals:
         x: Array,
         parts: Sequence[_Eliminated],
         states: list[Array | None],
-        steps: list[tuple[Array, Array] | None],
+        steps: list[OwnStep | None],
         sizes: Array,
         n: int,
         tables: Sequence[_Rows],
@@ -356,26 +406,25 @@ class WeightedResiduals:
         """The point of all observations, with nuisances eliminated; its cost is that of the nuisances' priors alone."""
         residual = _stacked([part.residual for part in parts])
         jacobian = _stacked([part.rows[:, 1 : 1 + n] for part in parts])
-        gain, cost = sum(part.gain for part in parts), 0.0
-        step, by = np.zeros(sizes.size), np.zeros((sizes.size, n))
+        cost, last = 0.0, OwnStep.none(np.zeros((sizes.size, n)))
         if sizes.size:
             sd = np.array([one.prior_sd for one in self.nuisances])
             joint = np.concatenate([part.rows for part in parts])
             found = _eliminated(joint, np.zeros((len(joint), 0)), n, sizes, sd)
             cost = 0.5 * float(np.sum((sizes / sd) ** 2))
             residual = np.concatenate([-sizes / sd, residual])
-            jacobian, gain = found.rows[:, 1 : 1 + n], gain + found.gain
-            step, by = -found.solution[:, 0], -found.solution[:, 1 : 1 + n]
+            jacobian = found.rows[:, 1 : 1 + n]
+            last = found.own._replace(by=-found.solution[:, 1 : 1 + n])
         run = 0
         for one, part in zip(self.observations, parts, strict=True):
             if part.solution.size:
-                own, through = part.solution[:, : 1 + n], part.solution[:, 1 + n :]
-                steps[run] = -(own[:, 0] + through @ step), -(own[:, 1:] + through @ by)
+                by, through = -part.solution[:, 1 : 1 + n], -part.solution[:, 1 + n :]
+                steps[run] = part.own._replace(by=by + through @ last.by, through=through)
             run += len(one.runs)
         blocks, series, pieces = self._blocks(parts, tables, sizes.size)
         return Point(
             x, cost, residual, jacobian, blocks=blocks, series=series, more=sum(table.more for table in tables),
-            carried=Carried(tuple(states), sizes, pieces), steps=(*steps, (step, by)), gain=gain,
+            carried=Carried(tuple(states), sizes, pieces), steps=(*steps, last),
         )  # fmt: skip
 
     def _levels(self, squares: Array) -> tuple[Array, float]:
@@ -452,15 +501,18 @@ class _Eliminated:
         residual: (n,) as simulated, rows of priors first.
         rows: (n, 1 + n_x + k) residual, Jacobian and nuisance columns, projected off the eliminated columns.
         solution: (n_s, 1 + n_x + k) least-squares coefficients of the eliminated columns for each of these.
-        gain: nats by which a full step of the eliminated unknowns lowers the cost.
+        own: step of the eliminated unknowns, without its derivatives.
         priors: number of rows that are priors.
     """
 
     residual: Array
     rows: Array
     solution: Array
-    gain: float
+    own: OwnStep
     priors: int
+
+
+_NO_STEP = OwnStep.none(np.zeros((0, 0)))
 
 
 def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> _Eliminated:
@@ -471,7 +523,7 @@ def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> 
         values, sd: (n_s,) present values of the eliminated unknowns; standard deviations of their priors around 0."""
     kept = np.column_stack([table[:, : 1 + n], more]) if more.size else table[:, : 1 + n]
     if not values.size:
-        return _Eliminated(np.ascontiguousarray(table[:, 0]), kept, np.zeros((0, kept.shape[1])), 0.0, 0)
+        return _Eliminated(np.ascontiguousarray(table[:, 0]), kept, np.zeros((0, kept.shape[1])), _NO_STEP, 0)
     count = values.size
     rows = np.zeros((count + len(kept), kept.shape[1]))
     rows[:count, 0], rows[count:] = -values / sd, kept
@@ -490,7 +542,10 @@ def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> 
     rows[:count] -= priors @ solution
     for part in slices:
         rows[count:][part] -= columns[part] @ solution
-    return _Eliminated(residual, rows, solution, 0.5 * float(inner[:, 0] @ inner[:, 0]), count)
+    own_step = OwnStep.none(np.zeros((count, 0)))._replace(
+        back=vt[held].T / size[:, None], sizes=sigma[held], inner=inner[:, 0]
+    )
+    return _Eliminated(residual, rows, solution, own_step, count)
 
 
 def _held(table: Array, more: Array, values: Array, sd: Array) -> _Eliminated:
@@ -499,7 +554,7 @@ def _held(table: Array, more: Array, values: Array, sd: Array) -> _Eliminated:
     ahead = np.zeros((values.size, rows.shape[1]))
     ahead[:, 0] = -values / sd
     rows = np.concatenate([ahead, rows])
-    return _Eliminated(rows[:, 0].copy(), rows, np.zeros((0, rows.shape[1])), 0.0, values.size)
+    return _Eliminated(rows[:, 0].copy(), rows, np.zeros((0, rows.shape[1])), _NO_STEP, values.size)
 
 
 def _squares(one: Observation, table: _Rows) -> Array:
@@ -523,10 +578,8 @@ def _stacked(parts: Sequence[Array]) -> Array:
     return np.ascontiguousarray(parts[0]) if len(parts) == 1 else np.concatenate(parts)
 
 
-def _orbits(answer: Answer, n: int) -> tuple[list[Array | None], list[tuple[Array, Array] | None]]:
+def _orbits(answer: Answer, n: int) -> tuple[list[Array | None], list[OwnStep | None]]:
     """States of the orbits, and their steps: 0 at constant x, as the orbit is already found, and derivatives by x."""
     states: list[Array | None] = [None if orbit is None else orbit[0] for orbit in answer.orbits]
-    steps: list[tuple[Array, Array] | None] = [
-        None if orbit is None else (np.zeros(orbit[0].size), orbit[1][:, :n]) for orbit in answer.orbits
-    ]
+    steps = [None if orbit is None else OwnStep.none(orbit[1][:, :n]) for orbit in answer.orbits]
     return states, steps

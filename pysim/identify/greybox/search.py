@@ -66,7 +66,7 @@ def search(
         _told(progress, name, state, first)
     while state.outcome is None:
         proposal = optimiser.propose(state, bounds)
-        trial = evaluate(proposal.x, state.best.carried_to(proposal.x, proposal.share))
+        trial = evaluate(proposal.x, state.best.carried_to(proposal.x, proposal.damping))
         state = optimiser.tell(state, proposal, trial, bounds)
         _written(checkpoint, space, state, trial)
         _told(progress, name, state, trial)

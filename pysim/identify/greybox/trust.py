@@ -118,7 +118,7 @@ def _is_explained(
     if not there.good:
         return False
     squares = float(there.residual @ there.residual)
-    return there.gain > 0.5 * _SETTINGS.explained * squares or _begins_apart(there.residual[run.free.size :])
+    return there.own_gain() > 0.5 * _SETTINGS.explained * squares or _begins_apart(there.residual[run.free.size :])
 
 
 def _begins_apart(residual: NDArray[np.float64]) -> bool:

@@ -6,7 +6,7 @@ import pytest
 from scipy.optimize import lsq_linear
 
 from pysim.identify.greybox.least_squares import GaussNewton
-from pysim.identify.greybox.residuals import Carried, Point
+from pysim.identify.greybox.residuals import Carried, OwnStep, Point
 from pysim.identify.greybox.search import search
 from pysim.types import BadInput, FitOutcome
 from tests.pysim.identify.greybox.functions import evaluating, linear, rosenbrock, rosenbrock_slopes, space
@@ -132,3 +132,43 @@ def test_a_slope_that_lies_ends_in_a_stall() -> None:
 def test_settings_must_be_positive(setting: str) -> None:
     with pytest.raises(BadInput, match=setting):
         GaussNewton(**{setting: 0})
+
+
+def beside_a_bent_state(x: np.ndarray, carried: Carried) -> Point:
+    """3 (x - 2) and exp(2 s) - 2: from s = -2 Newton's step on the state s leads to s = 52."""
+    (s,) = carried.states or (np.array([-2.0]),)
+    assert s is not None
+    residual, slope = np.array([3 * (x[0] - 2), np.exp(2 * s[0]) - 2]), 2 * np.exp(2 * s[0])
+    own = OwnStep(np.zeros((1, 1)), np.array([[1 / slope]]), np.ones(1), residual[1:], np.zeros((1, 0)))
+    return Point(
+        x, 0.5 * float(residual @ residual), residual, np.array([[3.0], [0.0]]),
+        carried=Carried((s,)), steps=(own, OwnStep.none(np.zeros((0, 1)))),
+    )  # fmt: skip
+
+
+def test_a_state_whose_own_steps_fail_does_not_hold_the_parameters_up() -> None:
+    s = space([-5.0])
+    points = [
+        search(beside_a_bent_state, GaussNewton(max_iterations=n, radius=10.0), s, s.start, squares=True)
+        for n in (3, 30)
+    ]
+    assert points[0].best.x == pytest.approx([2.0], abs=0.5)  # the second point: the parameter alone, and on
+    assert points[1].outcome is FitOutcome.CONVERGED
+    assert points[1].best.carried.states[0] == pytest.approx([0.5 * np.log(2)], abs=0.1)
+
+
+def test_damped_steps_beside_the_parameters_are_those_of_levenberg_and_marquardt() -> None:
+    rng = np.random.default_rng(4)
+    slopes, residual = rng.normal(size=(20, 3)), rng.normal(size=20)
+    size = np.linalg.norm(slopes, axis=0)
+    u, sizes, vt = np.linalg.svd(slopes / size, full_matrices=False)
+    own = OwnStep(np.zeros((3, 0)), vt.T / size[:, None], sizes, u.T @ residual, np.zeros((3, 0)))
+    point = Point(np.zeros(0), 1.0, residual, np.zeros((20, 0)), steps=(own,))
+    for damping in (0.0, 0.3, 1e3):
+        step = -np.linalg.solve(slopes.T @ slopes + damping * np.diag(size**2), slopes.T @ residual)
+        assert own.at(damping) == pytest.approx(step)
+        after = residual + slopes @ step
+        assert point.own_gain(damping) == pytest.approx(0.5 * float(residual @ residual - after @ after))
+        assert point.own_length(damping) == pytest.approx(float(np.linalg.norm(size * step)))
+        assert point.own_damping(point.own_length(damping)) == pytest.approx(damping, rel=0.1, abs=1e-9)
+    assert not own.at(np.inf).any()

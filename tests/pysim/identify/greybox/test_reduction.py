@@ -1,6 +1,7 @@
 """A long log becomes triangles while it is simulated: the same fit, interval and blocks as from all of its rows."""
 
 import gc
+import math
 import weakref
 from typing import Any
 
@@ -63,8 +64,10 @@ def test_squares_and_products_are_those_of_all_rows(lag: Model) -> None:
     np.testing.assert_allclose(reduced.levels, whole.levels, rtol=1e-12)
     for one, other in zip(reduced.steps, whole.steps, strict=True):
         if one is not None and other is not None:
-            np.testing.assert_allclose(one[1], other[1], rtol=1e-6)
-    again = at(task(lag, ROWS - 1), reduced.carried_to(reduced.x, 0.0))  # which knows how long its pieces have to be
+            np.testing.assert_allclose(one.by, other.by, rtol=1e-6)
+    again = at(
+        task(lag, ROWS - 1), reduced.carried_to(reduced.x, math.inf)
+    )  # which knows how long its pieces have to be
     for block in range(NoiseSettings().blocks):
         expected = products(whole, block)
         np.testing.assert_allclose(products(again, block), expected, atol=1e-9 * np.max(expected))
