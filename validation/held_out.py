@@ -7,16 +7,14 @@ from dataclasses import replace
 
 import numpy as np
 
-from pysim.identify.greybox import Nuisance, NuisanceKind, Point, Problem, Simulation, WeightedResiduals, problem
+from pysim.identify.greybox import Nuisance, NuisanceKind, Simulation, problem
+from pysim.identify.greybox.beginning import settled_initial_states
 from pysim.simulate import Esdirk
 from pysim.types import BadInput, Dataset, Model
 from pysim.types.answer import SensorError
 
 FINE = Simulation(solver=Esdirk(rtol=1e-7, atol=1e-7))
 """A lightly damped swing of nine seconds comes out within a tenth of its encoder's step."""
-_ROUNDS = 60  # steps of the initial states
-_LEAST = 1e-3  # nats that a step must promise
-_SHORTEST = 1e-4  # share of a step, below which rounding decides
 
 
 def held_out_rms(
@@ -43,20 +41,8 @@ def held_out_rms(
     judged = problem(model, [replace(dataset, records=records)], (), fixed=values)
     known = tuple((Nuisance(NuisanceKind(one.kind), one.dataset, one.signal, 1.0), one.size) for one in sensors)
     residuals = replace(judged.residuals(simulation=simulation), known=known)
-    found = _settled(judged, residuals)
+    found = settled_initial_states(residuals, judged.model, judged.space, np.zeros(0))
+    if not found.good:
+        raise BadInput(f"held-out logs of {model.name}: {found.failure}")
     sizes = np.sqrt(found.squares / residuals.samples)
     return {name: float(size) for (_, name), size in zip(residuals.channels, sizes, strict=True)}
-
-
-def _settled(judged: Problem, residuals: WeightedResiduals) -> Point:
-    """Gauss-Newton steps of the initial states, each as long as it gains."""
-    x, share = np.zeros(0), 1.0
-    best = residuals.evaluate(judged.model, judged.space, x, jacobian=False)
-    if not best.good:
-        raise BadInput(f"held-out logs of {judged.model.name}: {best.failure}")
-    for _ in range(_ROUNDS):
-        if best.gain < _LEAST or share < _SHORTEST:
-            break
-        trial = residuals.evaluate(judged.model, judged.space, x, best.carried_to(x, share), jacobian=False)
-        best, share = (trial, min(1.0, 2 * share)) if trial.cost < best.cost else (best, share / 4)
-    return best
