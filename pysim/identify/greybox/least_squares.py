@@ -31,9 +31,9 @@ class GaussNewton:
 
     Each step minimises |r + J p|^2 + damping |p|^2 within the bounds, with the smallest damping that keeps |p| inside
     the radius. A direction the data do not determine has no slope, so the damping keeps the search from drifting along.
-    Initial states and nuisances go along by steps of their own, inside a radius of their own. After a step that was too
-    long the parameters are tried alone, which tells whose step it was. The levels of the residuals are held within a
-    step and follow between steps.
+    Initial states and nuisances take steps of their own, inside a radius of their own, where these promise more than
+    the parameters; else they only follow the parameters. So it is known whose step was too long. The levels of the
+    residuals are held within a step and follow between steps.
 
     Args:
         max_iterations: points to try.
@@ -75,11 +75,13 @@ class GaussNewton:
 
     def propose(self, state: State, bounds: Bounds) -> Proposal:
         """See Optimiser."""
-        step, memory = _Step.at(state.best, bounds), state.memory
-        damping = math.inf if memory.get("alone") else state.best.own_damping(memory.get("own", math.inf))
-        p = step.within(memory["radius"], _SETTINGS.spare)
-        promised = step.predicted(p) + state.best.own_gain(damping)
-        return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), promised, damping)
+        step = _Step.at(state.best, bounds)
+        p = step.within(state.memory["radius"], _SETTINGS.spare)
+        damping, promised = _own_damping(state), step.predicted(p)
+        own = state.best.own_gain(damping)
+        if promised > own:
+            damping, own = math.inf, 0.0
+        return Proposal(np.clip(state.best.x + p, bounds.lower, bounds.upper), promised + own, damping)
 
     def tell(self, state: State, proposal: Proposal, trial: Point, bounds: Bounds) -> State:
         """See Optimiser."""
@@ -90,18 +92,15 @@ class GaussNewton:
         if proposal.predicted < blur and ratio <= _NONE and actual > -blur:
             memory = {**state.memory, "radius": _POOR * length}
             return self._lost(replace(state, best=trial, tried=state.tried + 1, memory=memory), bounds)
-        memory, failed = {**state.memory, "alone": 0.0}, state.memory.get("failed", math.inf)
-        own, own_length = state.best.own_gain(proposal.damping), state.best.own_length(proposal.damping)
+        memory, failed = dict(state.memory), state.memory.get("failed", math.inf)
+        own = state.best.own_length(proposal.damping)
         if ratio < _POOR:
             shorter = _best_share(state.best, trial, proposal) if trial.good else _POOR
-            if own > self.tolerance or own > 0.5 * proposal.predicted:
-                memory |= {"own": own_length * shorter, "alone": float(own < 0.5 * proposal.predicted)}
-            else:
-                memory |= {"radius": length * shorter, "failed": length}
+            memory |= {"own": own * shorter} if own else {"radius": length * shorter, "failed": length}
         elif ratio > _GOOD:
             if length > 0.8 * radius:
                 memory |= {"radius": max(radius, min(2 * radius, _GOOD * failed)), "failed": failed / _GOOD}
-            if own_length > 0.8 * memory.get("own", math.inf):
+            if own > 0.8 * memory.get("own", math.inf):
                 memory["own"] = 2 * memory["own"]
         radius = memory["radius"]
         state = replace(state, tried=state.tried + 1, memory=memory)
@@ -112,14 +111,14 @@ class GaussNewton:
             state = replace(state, memory={**state.memory, "turned": 1.0})
         if trial.good and self._bends(state, bounds):
             return self._lost(state, bounds)
-        if radius < _SHORTEST and _own_gain(state) < self.tolerance:
+        if radius < _SHORTEST and state.best.own_gain(_own_damping(state)) < self.tolerance:
             return _ended(state, FitOutcome.STALLED, str(trial.failure or f"the last step was {length:.1g} long"))
         return self._counted(state)
 
     def _bends(self, state: State, bounds: Bounds) -> bool:
         """Whether what is promised up to where steps were seen to fail is nothing, or as good as nothing."""
         step, small = _Step.at(state.best, bounds), self._small(state.best)
-        promised = step.predicted(step.within(state.memory["radius"])) + _own_gain(state)
+        promised = step.predicted(step.within(state.memory["radius"])) + state.best.own_gain(_own_damping(state))
         return promised < max(small, min(blur_of(state.best), _SETTINGS.close * small))
 
     def _lost(self, state: State, bounds: Bounds) -> State:
@@ -149,9 +148,9 @@ class GaussNewton:
         return _ended(state, FitOutcome.ITERATION_LIMIT, f"{state.tried} points were tried")
 
 
-def _own_gain(state: State) -> float:
-    """nats that the own step inside its radius promises."""
-    return state.best.own_gain(state.best.own_damping(state.memory.get("own", math.inf)))
+def _own_damping(state: State) -> float:
+    """The least damping with which the own steps of initial states and nuisances stay inside their radius."""
+    return state.best.own_damping(state.memory.get("own", math.inf))
 
 
 def blur_of(point: Point) -> float:
