@@ -333,8 +333,8 @@ def _at_levels(
         point = residuals.with_priors(residuals.weigh(last.x, answer, carried, last.x.size), space)
         if point.good and point.cost < best.cost + blur_of(best):
             return point, answer.simulated
-    answer = residuals.simulate(model, space, best.x, best.carried_to(best.x))
-    point = residuals.with_priors(residuals.weigh(best.x, answer, best.carried_to(best.x), best.x.size), space)
+    answer = residuals.simulate(model, space, best.x, best.carried)
+    point = residuals.with_priors(residuals.weigh(best.x, answer, best.carried, best.x.size), space)
     if point.good:
         return point, answer.simulated
     return (point if objective.measure is not Measure.SIGNAL else best), ()
