@@ -485,6 +485,7 @@ class Search:
 
     def vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest, without: Pairs = ()) -> GainTest:
         """Check a gain on validation logs and left-out blocks: VETOED if either error grows by more than chance.
+        A law is vetoed too if an effect that was refitted beside the smaller model predicts validation logs better.
 
         Args:
             without: both models refitted without some logs, which validate them in place of validation logs.
@@ -497,6 +498,9 @@ class Search:
         vetoed = seen and after - before > rivals.reach(own, other, self.settings.tie)
         if held := self._held_out(without or [(smaller, larger)]):
             test, vetoed = replace(test, held_out=held[0]), vetoed or held[0] > held[1]
+        table = self._tables.get(frozenset(smaller.candidate.labels)) if larger.candidate.law else None
+        rises = [self._held_out([(one.fit, larger)]) for one in (table.rivals if table else ()) if one.fit.ended]
+        vetoed |= any(rise is not None and rise[0] > rise[1] for rise in rises)
         return replace(test, verdict=Verdict.VETOED) if vetoed else test
 
     def _held_out(self, pairs: Pairs) -> tuple[float, float] | None:

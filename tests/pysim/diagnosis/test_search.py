@@ -15,7 +15,7 @@ from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.progress import Progress
 from pysim.diagnosis.refit import FinalFit, begin
-from pysim.diagnosis.search import Compared, Search, Step
+from pysim.diagnosis.search import Compared, Search, Step, Table
 from pysim.diagnosis.session import session
 from pysim.diagnosis.settings import Settings
 from pysim.effects import read_catalogue
@@ -68,6 +68,21 @@ def test_a_model_that_cannot_run_through_the_choosing_logs_is_vetoed() -> None:
     assert better == (-math.inf, 0.0)
     assert search._held_out([(frail, frail)]) is None
     assert search._held_out([(base, frail), (frail, base)]) == (math.inf, 0.0)
+
+
+def test_a_law_is_vetoed_where_an_effect_predicts_the_choosing_logs_better() -> None:
+    data = measured("mass", {"mass.hardening": {"k_3": 200.0}}, fit=(1,), validate=(2,))
+    models = Models(given("mass", data, ["mass.hardening"], initial="rest"))
+    search = Search(models, FINE, Settings(), Progress(lambda told: None), Checkpoint(None, ""))
+    base, effect = refitted(models), refitted(models, "mass.hardening", values={("mass.hardening", "k_3"): 100.0})
+    law, test = (
+        replace(base, candidate=replace(base.candidate, law="a law that does nothing")),
+        search.test(base, effect),
+    )
+    assert search.vetoed(base, law, test).verdict is Verdict.BETTER
+    search._tables[frozenset()] = Table((), 0.0, (Compared(effect, "mass.hardening", test),), ())
+    assert search.vetoed(base, law, test).verdict is Verdict.VETOED
+    assert search.vetoed(base, effect, test).verdict is Verdict.BETTER
 
 
 def test_the_choosing_logs_say_by_how_much_their_cost_rises_as_far_as_parameters_are_open() -> None:
