@@ -94,7 +94,7 @@ class LawModel:
         unit = _LITTLE / max(float(np.sqrt(np.mean(by**2))), 1e-300)
         names = self.place.coefficients(k.size)
         candidate = self.candidate(law.settings(k, unit), names, np.ones(k.size), free=False)
-        point = candidate.residuals(self.present.simulation).evaluate(
+        point = candidate.residuals(self.present.simulation.rough()).evaluate(
             candidate.model, candidate.space, np.zeros(k.size), self.present.point.carried
         )
         return (unit, point.jacobian) if point.good and np.isfinite(point.jacobian).all() else None
