@@ -323,18 +323,21 @@ def _at_levels(
     simulated signals, none if the model could not be simulated.
 
     For a smooth objective the point is where the next step leads, since this costs no further simulation. The end of
-    the search is taken if that point is worse, or if steps from the end have failed before.
+    the search is taken if that point is worse, or if steps from the end have failed before; its initial states and
+    nuisances take their own step, if that is not worse.
     """
     best, model, space = state.best, problem.model, problem.space
+    places = [(best.x, best.carried)]
+    if best.own_gain() > 0:
+        places.insert(0, (best.x, best.carried_to(best.x)))
     if optimiser.smooth_only and objective.measure is Measure.SIGNAL and not state.memory.get("turned"):
-        last = optimiser.propose(state, Bounds(*space.bounds()))
-        carried = best.carried_to(last.x, last.damping)
-        answer = residuals.simulate(model, space, last.x, carried)
-        point = residuals.with_priors(residuals.weigh(last.x, answer, carried, last.x.size), space)
+        x = optimiser.propose(state, Bounds(*space.bounds())).x
+        places.insert(0, (x, best.carried_to(x)))
+    for x, carried in places:
+        answer = residuals.simulate(model, space, x, carried)
+        point = residuals.with_priors(residuals.weigh(x, answer, carried, x.size), space)
         if point.good and point.cost < best.cost + blur_of(best):
             return point, answer.simulated
-    answer = residuals.simulate(model, space, best.x, best.carried)
-    point = residuals.with_priors(residuals.weigh(best.x, answer, best.carried, best.x.size), space)
     if point.good:
         return point, answer.simulated
     return (point if objective.measure is not Measure.SIGNAL else best), ()

@@ -69,7 +69,7 @@ def test_nothing_is_free_where_a_model_is_only_compared() -> None:
 
 
 def test_a_search_that_ends_among_errors_of_the_integration_goes_on_with_a_finer_one() -> None:
-    rough = Simulation(solver=Esdirk(rtol=3e-2, atol=3e-2))
+    rough = Simulation(solver=Esdirk(rtol=0.2, atol=0.2))
     task = fit_problem(MASS, [DATA])
     first = fit(task, simulation=rough)
     again = fitted(task, simulation=rough)
