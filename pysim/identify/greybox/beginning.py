@@ -76,8 +76,10 @@ def _settle(residuals: WeightedResiduals, model: Model, space: ParameterSpace, x
         if not best.good or best.own_gain(damping) < _SETTINGS.settled:
             break
         trial = residuals.evaluate(model, space, x, best.carried_to(x, damping), jacobian=False)
-        radius = 2 * radius if trial.cost < best.cost else 0.25 * best.own_length(damping)
-        best = trial if trial.cost < best.cost else best
+        if trial.cost < best.cost:
+            best, radius = trial, 2 * radius
+        else:
+            radius = 0.25 * best.own_length(damping)
     return best
 
 

@@ -45,7 +45,8 @@ class Checkpoint:
 
     @property
     def _token(self) -> str:
-        return hashlib.sha256(self.identity.encode()).hexdigest()
+        """Of the search, and of the form in which a state is kept: another version's state cannot be gone on with."""
+        return hashlib.sha256(f"{self.identity} {_PLAIN} {OwnStep._fields}".encode()).hexdigest()
 
     def forget(self) -> None:
         """Delete the state; the lines stay until a search begins."""
@@ -71,8 +72,8 @@ class Checkpoint:
             arrays = {name: content[name] for name in content.files}
         if head["token"] != self._token:
             raise BadInput(
-                f"{path} belongs to another fit: other model, data, parameters, objective, optimiser, solver or start; "
-                "repeat the command that was stopped, or delete this folder to begin anew"
+                f"{path} belongs to another fit: other model, data, parameters, objective, optimiser, solver, start or "
+                "version; repeat the command that was stopped, or delete this folder to begin anew"
             )
         self._forget_after(head["tried"])
         best = _point(arrays)

@@ -327,12 +327,13 @@ def _at_levels(
     nuisances take their own step, if that is not worse.
     """
     best, model, space = state.best, problem.model, problem.space
-    places = [(best.x, best.carried)]
-    if best.own_gain() > 0:
-        places.insert(0, (best.x, best.carried_to(best.x)))
+    places = list[tuple[Array, Carried]]()
     if optimiser.smooth_only and objective.measure is Measure.SIGNAL and not state.memory.get("turned"):
         x = optimiser.propose(state, Bounds(*space.bounds())).x
-        places.insert(0, (x, best.carried_to(x)))
+        places.append((x, best.carried_to(x)))
+    if best.own_gain() > 0:
+        places.append((best.x, best.carried_to(best.x)))
+    places.append((best.x, best.carried))
     for x, carried in places:
         answer = residuals.simulate(model, space, x, carried)
         point = residuals.with_priors(residuals.weigh(x, answer, carried, x.size), space)

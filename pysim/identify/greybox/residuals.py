@@ -542,9 +542,8 @@ def _eliminated(table: Array, more: Array, n: int, values: Array, sd: Array) -> 
     rows[:count] -= priors @ solution
     for part in slices:
         rows[count:][part] -= columns[part] @ solution
-    own_step = OwnStep.none(np.zeros((count, 0)))._replace(
-        back=vt[held].T / size[:, None], sizes=sigma[held], inner=inner[:, 0]
-    )
+    none = np.zeros((count, 0))
+    own_step = OwnStep(none, vt[held].T / size[:, None], sigma[held], inner[:, 0], none)
     return _Eliminated(residual, rows, solution, own_step, count)
 
 

@@ -30,6 +30,7 @@ TRUTH: Mapping[str, float] = {"m": 1.0, "d": 1.9, "k": 40.0}
 FRICTION, HARDENING, BIAS = "mass.friction", "mass.hardening", "mass.bias"
 STRENGTH = {FRICTION: ("F_c", 0.03), HARDENING: ("k_3", 5.0), BIAS: ("F_b", 0.05)}  # of the plants
 OFFSET = Nuisance(NuisanceKind.OFFSET, "mass", "x", 0.01)
+GAIN = Nuisance(NuisanceKind.GAIN, "mass", "x", 0.02)
 
 TWIN = """
 package Twins
@@ -103,7 +104,7 @@ def run(plan: str, path: Path, effect: str) -> Dataset:
     return run_plan(model, read_plan(path), 5, parameters={**TRUTH, f"{places[effect]}.{name}": size}).dataset
 
 
-@pytest.mark.parametrize(("right", "wrong"), [(FRICTION, HARDENING), (HARDENING, OFFSET)])
+@pytest.mark.parametrize(("right", "wrong"), [(FRICTION, HARDENING), (HARDENING, OFFSET), (FRICTION, GAIN)])
 def test_the_plan_separates_as_far_as_it_promises(right: str, wrong: str | Nuisance, tmp_path: Path) -> None:
     data = short(right)
     _, one, other = rivals(data, right, wrong)

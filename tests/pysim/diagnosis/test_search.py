@@ -75,10 +75,8 @@ def test_a_law_is_vetoed_where_an_effect_predicts_the_choosing_logs_better() -> 
     models = Models(given("mass", data, ["mass.hardening"], initial="rest"))
     search = Search(models, FINE, Settings(), Progress(lambda told: None), Checkpoint(None, ""))
     base, effect = refitted(models), refitted(models, "mass.hardening", values={("mass.hardening", "k_3"): 100.0})
-    law, test = (
-        replace(base, candidate=replace(base.candidate, law="a law that does nothing")),
-        search.test(base, effect),
-    )
+    law = replace(base, candidate=replace(base.candidate, law="a law that does nothing"))
+    test = search.test(base, effect)
     assert search.vetoed(base, law, test).verdict is Verdict.BETTER
     search._tables[frozenset()] = Table((), 0.0, (Compared(effect, "mass.hardening", test),), ())
     assert search.vetoed(base, law, test).verdict is Verdict.VETOED

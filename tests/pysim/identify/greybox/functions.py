@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.greybox.parameters import ParameterSpace
-from pysim.identify.greybox.residuals import Carried, Point, failed_point
+from pysim.identify.greybox.residuals import Carried, OwnStep, Point, failed_point
 from pysim.identify.greybox.runs import Failure
 from pysim.identify.greybox.search import Evaluate
 from pysim.types import Outcome
@@ -64,3 +64,15 @@ def rosenbrock(x: Array) -> Array:
 
 def rosenbrock_slopes(x: Array) -> Array:
     return np.array([[-20 * x[0], 10.0], [-1.0, 0.0]])
+
+
+def beside_a_bent_state(x: Array, carried: Carried) -> Point:
+    """3 (x - 2) and exp(2 s) - 2: from s = -2 Newton's step on the state s leads to s = 52."""
+    (s,) = carried.states or (np.array([-2.0]),)
+    assert s is not None
+    residual, slope = np.array([3 * (x[0] - 2), np.exp(2 * s[0]) - 2]), 2 * np.exp(2 * s[0])
+    own = OwnStep(np.zeros((1, 1)), np.array([[1 / slope]]), np.ones(1), residual[1:], np.zeros((1, 0)))
+    return Point(
+        x, 0.5 * float(residual @ residual), residual, np.array([[3.0], [0.0]]),
+        carried=Carried((s,)), steps=(own, OwnStep.none(np.zeros((0, 1)))),
+    )  # fmt: skip

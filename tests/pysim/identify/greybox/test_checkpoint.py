@@ -4,13 +4,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from pysim.identify.greybox import checkpoint
 from pysim.identify.greybox.checkpoint import LINES, STATE, Checkpoint
 from pysim.identify.greybox.interior_point import InteriorPoint
 from pysim.identify.greybox.least_squares import GaussNewton
 from pysim.identify.greybox.optimiser import Optimiser
 from pysim.identify.greybox.search import Tried, search
 from pysim.types import BadInput
-from tests.pysim.identify.greybox.functions import evaluating, rosenbrock, rosenbrock_slopes, space
+from tests.pysim.identify.greybox.functions import beside_a_bent_state, evaluating, rosenbrock, rosenbrock_slopes, space
 
 
 class Killed(Exception):
@@ -84,3 +85,23 @@ def test_a_log_of_another_fit_is_refused(tmp_path: Path) -> None:
     with pytest.raises(BadInput, match=r"state\.npz belongs to another fit: other .*; repeat the command"):
         search(evaluate, GaussNewton(), s, s.start, squares=True, checkpoint=Checkpoint(tmp_path, "b"), resume=True)
     assert (tmp_path / STATE).is_file()
+
+
+def test_steps_of_initial_states_are_gone_on_with(tmp_path: Path) -> None:
+    s, optimiser = space([-5.0]), GaussNewton(radius=10.0)
+    whole = search(beside_a_bent_state, optimiser, s, s.start, squares=True)
+    journal = Checkpoint(tmp_path, "a")
+    with pytest.raises(Killed):
+        search(beside_a_bent_state, optimiser, s, s.start, squares=True, checkpoint=journal, progress=killing(3))
+    resumed = search(beside_a_bent_state, optimiser, s, s.start, squares=True, checkpoint=journal, resume=True)
+    assert whole.tried > 4
+    assert (resumed.tried, resumed.best.cost) == (whole.tried, whole.best.cost)
+    assert resumed.best.carried.states[0] == whole.best.carried.states[0]
+
+
+def test_a_state_of_another_version_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    s, journal = space([-5.0]), Checkpoint(tmp_path, "a")
+    search(beside_a_bent_state, GaussNewton(), s, s.start, squares=True, checkpoint=journal)
+    monkeypatch.setattr(checkpoint, "_PLAIN", (*checkpoint._PLAIN, "gain"))
+    with pytest.raises(BadInput, match="another fit"):
+        journal.load()

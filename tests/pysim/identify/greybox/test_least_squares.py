@@ -9,7 +9,14 @@ from pysim.identify.greybox.least_squares import GaussNewton
 from pysim.identify.greybox.residuals import Carried, OwnStep, Point
 from pysim.identify.greybox.search import search
 from pysim.types import BadInput, FitOutcome
-from tests.pysim.identify.greybox.functions import evaluating, linear, rosenbrock, rosenbrock_slopes, space
+from tests.pysim.identify.greybox.functions import (
+    beside_a_bent_state,
+    evaluating,
+    linear,
+    rosenbrock,
+    rosenbrock_slopes,
+    space,
+)
 
 
 def test_a_linear_problem_is_solved_as_by_least_squares() -> None:
@@ -132,18 +139,6 @@ def test_a_slope_that_lies_ends_in_a_stall() -> None:
 def test_settings_must_be_positive(setting: str) -> None:
     with pytest.raises(BadInput, match=setting):
         GaussNewton(**{setting: 0})
-
-
-def beside_a_bent_state(x: np.ndarray, carried: Carried) -> Point:
-    """3 (x - 2) and exp(2 s) - 2: from s = -2 Newton's step on the state s leads to s = 52."""
-    (s,) = carried.states or (np.array([-2.0]),)
-    assert s is not None
-    residual, slope = np.array([3 * (x[0] - 2), np.exp(2 * s[0]) - 2]), 2 * np.exp(2 * s[0])
-    own = OwnStep(np.zeros((1, 1)), np.array([[1 / slope]]), np.ones(1), residual[1:], np.zeros((1, 0)))
-    return Point(
-        x, 0.5 * float(residual @ residual), residual, np.array([[3.0], [0.0]]),
-        carried=Carried((s,)), steps=(own, OwnStep.none(np.zeros((0, 1)))),
-    )  # fmt: skip
 
 
 def test_a_state_whose_own_steps_fail_does_not_hold_the_parameters_up() -> None:

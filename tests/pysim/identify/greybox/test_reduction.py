@@ -65,9 +65,8 @@ def test_squares_and_products_are_those_of_all_rows(lag: Model) -> None:
     for one, other in zip(reduced.steps, whole.steps, strict=True):
         if one is not None and other is not None:
             np.testing.assert_allclose(one.by, other.by, rtol=1e-6)
-    again = at(
-        task(lag, ROWS - 1), reduced.carried_to(reduced.x, math.inf)
-    )  # which knows how long its pieces have to be
+    carried = reduced.carried_to(reduced.x, math.inf)  # which knows how long its pieces have to be
+    again = at(task(lag, ROWS - 1), carried)
     for block in range(NoiseSettings().blocks):
         expected = products(whole, block)
         np.testing.assert_allclose(products(again, block), expected, atol=1e-9 * np.max(expected))
