@@ -66,10 +66,14 @@ class Runs:
         workers: int | None = None,
         progress: Callable[[int, int], None] | None = None,
     ) -> Orbits | tuple[()]:
-        """Periodic steady states, as `periodic_many`, each made where it is asked for."""
+        """Periodic steady states, as `periodic_many`, but by shooting alone; each is made where it is asked for.
+
+        Where shooting fails the outcome is NOT_PERIODIC: a search simulates the test over time instead, as
+        the bench ran it: cheaper than to wait until it repeats, and a plant that settles so slowly had not settled.
+        """
         check_arguments("orbits", self.model, solver, Esdirk)
         ask = check_periodic(self.model, tests, parameters, guesses, solver, mismatch, workers)
-        return find_in(self._library, ask, progress) if tests else ()
+        return find_in(self._library, replace(ask, long_way=False), progress) if tests else ()
 
 
 @contextmanager

@@ -129,13 +129,14 @@ class Orbits(Sequence[Orbit]):
 
 @dataclass(frozen=True)
 class Plan:
-    """What all tests of a call have in common."""
+    """What all tests of a call have in common; `long_way`: whether they take it where shooting fails."""
 
     library: Opened
     solver: Esdirk
     parameters: tuple[str, ...]
     offer: Offer
     mismatch: float
+    long_way: bool = True
 
     @cached_property
     def directions(self) -> Directions:
@@ -272,6 +273,8 @@ def _with_differences(plan: Plan, experiment: Experiment, orbit: Orbit, stopped:
 
 def _the_long_way(plan: Plan, experiment: Experiment, why: str, stopped: Stopped) -> Orbit:
     """Simulate until it repeats, and as long again: what depends on a parameter takes longer to settle."""
+    if not plan.long_way:
+        return _failed(plan, experiment, Outcome.NOT_PERIODIC, why)
     solver = tight(plan.solver)
     settled = settle_down(plan.library, experiment, solver, stopped)
     if not settled.trouble:

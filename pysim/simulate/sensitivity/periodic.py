@@ -140,7 +140,7 @@ def periodic_many(
 
 @dataclass(frozen=True)
 class Ask:
-    """Checked arguments of `periodic_many`."""
+    """Checked arguments of `periodic_many`, and whether a test takes the long way where shooting fails."""
 
     experiments: tuple[Experiment, ...]
     names: tuple[str, ...]
@@ -148,6 +148,7 @@ class Ask:
     solver: Esdirk
     mismatch: float
     workers: int
+    long_way: bool = True
 
 
 def check_periodic(
@@ -179,13 +180,14 @@ def find_in(library: Opened, ask: Ask, progress: Callable[[int, int], None] | No
     """As `periodic_many`, with a library that is open already."""
     experiments, starts, count = ask.experiments, ask.guesses, ask.workers
     offers = probe_each(library, experiments, ask.solver, ask.names)
-    plans = {record: Plan(library, ask.solver, ask.names, offer, ask.mismatch) for record, offer in offers.items()}
+    common = ask.mismatch, ask.long_way
+    plans = {record: Plan(library, ask.solver, ask.names, offer, *common) for record, offer in offers.items()}
     quick = min(range(len(experiments)), key=lambda i: float(experiments[i].times[-1]))
-    long_way = remembers(plans[experiments[quick].record], experiments[quick], starts[quick])
+    memory = remembers(plans[experiments[quick].record], experiments[quick], starts[quick])
     found: dict[int, Found] = {}
     whole: dict[int, Found] = {}  # where that is all there is to an orbit
     for record, plan in plans.items():
-        numbers = [i for i, experiment in enumerate(experiments) if experiment.record == record and not long_way]
+        numbers = [i for i, experiment in enumerate(experiments) if experiment.record == record and not memory]
         pairs, watch = [(experiments[i], starts[i]) for i in numbers], later(progress, len(whole), len(experiments))
         watch = None if plan.missing or not plan.offer.outputs else watch
         found |= zip(numbers, find_orbits(plan, pairs, workers=count, progress=watch), strict=True)

@@ -6,7 +6,7 @@ import math
 import numpy as np
 import pytest
 
-from pysim.simulate import Esdirk, Periodic, Rodas, periodic_many, simulate
+from pysim.simulate import Esdirk, Periodic, Rodas, open_runs, periodic_many, simulate
 from pysim.thesis import pump_model
 from pysim.types import BadInput, Experiment, Outcome, Signal
 from tests.pysim.simulate.fixture_fmus import HOARDER, OSCILLATOR
@@ -190,6 +190,10 @@ def test_events_make_it_take_the_long_way(tmp_path):
     np.testing.assert_allclose(orbit.by_parameter[:4, 0, 0], slope, atol=1e-4)
     assert (orbit.exact, orbit.iterations, orbit.outcome) == (False, 0, Outcome.DONE)
     assert "event" in orbit.message
+    with open_runs(text_model(RELAY, tmp_path)) as runs:  # a search rather simulates the test as it was run
+        (none,) = runs.orbits([test], ("T",))
+    assert (none.outcome, none.record.values.size) == (Outcome.NOT_PERIODIC, 0)
+    assert "event" in none.message
 
 
 def test_model_that_cannot_be_run_is_data(tmp_path):
