@@ -123,6 +123,7 @@ BEHIND = {  # part: its declaration, its port, its pressure, its compliance in m
 }
 
 
+@pytest.mark.slow
 def test_hose_as_it_comes_joins_what_gives_a_pressure_too(tmp_path: Path) -> None:
     """What is pumped in for a second spreads over the compliances of the hose and of what is behind it."""
     declared, connected = "", ""

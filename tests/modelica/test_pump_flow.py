@@ -236,6 +236,7 @@ def test_signals_stand_for_the_connectors() -> None:
     assert record["Q_A"][-1] == pytest.approx(0.5 * 71e-6 * 100 / (2 * np.pi), rel=0.02)
 
 
+@pytest.mark.slow
 def test_recipe_of_the_guide_runs(tmp_path: Path) -> None:
     """The pressure at which the relief valve lets the pump's flow pass."""
     guide = (LIBRARY / "UsersGuide" / "PumpBlock.mo").read_text(encoding="utf-8")

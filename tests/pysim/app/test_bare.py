@@ -76,6 +76,7 @@ def test_single_logs_are_described_on_the_page(shown: Shown, show: Show, logs: l
     assert tab.errors == []
 
 
+@pytest.mark.slow
 def test_stepped_sines_are_known_by_their_names(shown: Shown, show: Show, tmp_path: Path) -> None:
     for frequency in (1, 2):
         wave = 25 + 10 * np.sin(2 * np.pi * frequency * TIME)
@@ -94,6 +95,7 @@ def test_stepped_sines_are_known_by_their_names(shown: Shown, show: Show, tmp_pa
     assert tab.errors == []
 
 
+@pytest.mark.slow
 def test_times_in_ms_are_told(shown: Shown, show: Show, tmp_path: Path) -> None:
     np.savetxt(
         tmp_path / "a.txt", np.column_stack([1000 * TIME, TIME, TIME]), header="t (ms) u (V) y (bar)", fmt="%.4f"

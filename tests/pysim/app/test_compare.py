@@ -94,6 +94,7 @@ def stage(step: str, decibels: tuple[float, float]) -> dict[str, Any]:
     }  # fmt: skip
 
 
+@pytest.mark.slow
 def test_a_bode_plot_stands_in_its_band_and_says_when_it_leaves_it(shown: Shown, show: Show, project: Path) -> None:
     tab = Tab(shown, show(project), artefacts())
     tab.go("Compare")

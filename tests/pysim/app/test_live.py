@@ -80,6 +80,7 @@ def test_what_was_refused_is_shown_no_more(shown: Shown, show: Show, project: Pr
     assert project.description.read_bytes() == before
 
 
+@pytest.mark.slow
 def test_a_bound_and_a_law_that_are_typed_stay(shown: Shown, show: Show, tmp_path: Path) -> None:
     project = rubbing(tmp_path / "project")
     tab = Tab(shown, show(project.folder, restless=True))

@@ -98,6 +98,7 @@ def test_every_curve_follows_a_slider_and_what_is_let_go_is_kept(shown: Shown, s
     assert tab.errors == []
 
 
+@pytest.mark.slow
 def test_fitted_values_stand_beside_those_where_fits_begin_and_are_taken_over(
     shown: Shown, show: Show, project: Project
 ) -> None:

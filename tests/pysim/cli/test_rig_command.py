@@ -18,6 +18,7 @@ def test_steps_come_to_rest(tmp_path: Path) -> None:
         assert (tmp_path / "out" / name).is_file()
 
 
+@pytest.mark.slow
 def test_heave_compares_controllers(tmp_path: Path) -> None:
     words = ["rig", "heave", "--length", "4", "--fmi", "3", "--interface", "model-exchange", "--dt", "0.002"]
     assert main([*words, "--json", str(tmp_path / "h.json"), "--output", str(tmp_path / "out")]) == 0

@@ -104,7 +104,10 @@ def run(plan: str, path: Path, effect: str) -> Dataset:
     return run_plan(model, read_plan(path), 5, parameters={**TRUTH, f"{places[effect]}.{name}": size}).dataset
 
 
-@pytest.mark.parametrize(("right", "wrong"), [(FRICTION, HARDENING), (HARDENING, OFFSET), (FRICTION, GAIN)])
+@pytest.mark.parametrize(
+    ("right", "wrong"),
+    [(FRICTION, HARDENING), (HARDENING, OFFSET), pytest.param(FRICTION, GAIN, marks=pytest.mark.slow)],
+)
 def test_the_plan_separates_as_far_as_it_promises(right: str, wrong: str | Nuisance, tmp_path: Path) -> None:
     data = short(right)
     _, one, other = rivals(data, right, wrong)

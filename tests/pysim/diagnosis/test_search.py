@@ -235,6 +235,7 @@ def test_errors_of_an_effect_that_is_asked_for_are_those_of_runs_as_fine_as_it_n
     assert asked.history[-1].fit == pytest.approx(sought.history[-1].fit, abs=0.005)
 
 
+@pytest.mark.slow
 def test_errors_of_a_learned_law_are_those_of_runs_as_fine_as_it_needs() -> None:
     """A friction that changes sign sharply, learned where no effect is like it, leaves as little as the effect."""
     data = measured("mass", {"mass.friction": {"F_c": 0.4}}, {"m": 1.05, "d": 1.8, "k": 42.0})

@@ -22,6 +22,7 @@ def test_finds_three_poles_and_a_zero(seed: int, known: bool) -> None:
     assert [c.aicc for c in found.candidates] == sorted(c.aicc for c in found.candidates)
 
 
+@pytest.mark.slow
 def test_tells_a_dead_time_from_another_lag() -> None:
     right = 0
     for seed in range(4):  # AICc keeps a needless zero about once in ten
