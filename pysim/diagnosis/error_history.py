@@ -41,7 +41,8 @@ def error_step(
     if session.unseen is not None:
         parts.append(_unseen(fit, session, simulation))
     noise = {channel: floor.sd for channel, floor in floors.items()}
-    records = [with_noise(record, noise) for part in parts for record in part.records]
+    pairs = [(record, own) for part, own in zip(parts, session.numbers, strict=False) for record in part.records]
+    records = [with_noise(replace(record, index=own[record.index]), noise) for record, own in pairs]
     responses = tuple(response for part in parts for response in part.responses)
     deviations = [d for record in records for own in record.deviations.values() for d in own]
     deviations += [d for response in responses for d in response.comparison.deviations]

@@ -17,7 +17,7 @@ from pysim.identify.greybox import Measurements, Parameter, Problem, Rest, Threa
 from pysim.identify.greybox.context import on_one_clock
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import beside
-from pysim.types import BadInput, Dataset, Effect, MeasuredRecord, Model, Note, NoteCode
+from pysim.types import BadInput, Dataset, Effect, Model, Note, NoteCode
 
 # Effects -> the compiled model that has them, and effect name -> prefix of its parameters' names there.
 BuildVariant = Callable[[Sequence[Effect]], tuple[Model, Mapping[str, str]]]
@@ -45,6 +45,7 @@ class Session:
         settings: the numbers of the search.
         workers: threads that simulate.
         build_law: compiles models with learned laws; None if the source is not available.
+        numbers: places among all logs (`RecordFit.index`) of those in `data`, and of those in `unseen`.
     """
 
     model: Model
@@ -59,6 +60,7 @@ class Session:
     settings: Settings = field(default_factory=Settings)
     workers: Threads = field(default_factory=Threads)
     build_law: BuildLaw | None = None
+    numbers: tuple[Sequence[int], ...] = ()
 
     @property
     def dataset(self) -> Dataset:
@@ -133,11 +135,13 @@ def session(
             raise BadInput(f"{name} has bounds but is not free; free are {', '.join(names) or 'none'}")
     ends = {name: bounds.get(name, (None, None)) for name in names}
     parameters = tuple(Parameter(n, None, low, high, prior=priors.get(n)) for n, (low, high) in ends.items())
-    read, unseen = _withheld(on_one_clock(dataset))
+    records = on_one_clock(dataset).records
+    parts = [tuple(record for record in records if (record.use == TEST) == held) for held in (False, True)]
+    read, unseen = (Measurements(replace(dataset, records=own), overrides=overrides or {}) for own in parts)
     given = Session(
         model,
-        Measurements(read, overrides=overrides or {}),
-        None if unseen is None else Measurements(unseen, overrides=overrides or {}),
+        read,
+        unseen if parts[1] else None,
         parameters,
         tuple(catalogue),
         build,
@@ -146,6 +150,9 @@ def session(
         settings=settings or Settings(),
         workers=Threads(workers),
         build_law=build_law,
+        numbers=tuple(
+            [n for n, log in enumerate(dataset.logs()) if (log.use == TEST) == held] for held in (False, True)
+        ),
     )
     checked = given.problems[0]
     more = [*(Note(NoteCode.OTHER, {"text": text}) for text in shortcomings(dataset, names, initial)), *checked.notes]
@@ -153,15 +160,6 @@ def session(
     open_ = [name for name, lower, upper in found if not (math.isfinite(lower) and math.isfinite(upper))]
     more += [Note(NoteCode.UNBOUNDED, {"parameters": ", ".join(open_)})] if open_ else []
     return replace(given, notes=(*notes, *more))
-
-
-def _withheld(dataset: Dataset) -> tuple[Dataset, Dataset | None]:
-    """The data set without its held-out logs (use "test"), and one of these alone; None if there are none."""
-    unseen: list[MeasuredRecord] = [record for record in dataset.records if record.use == TEST]
-    if not unseen:
-        return dataset, None
-    read = tuple(record for record in dataset.records if record.use != TEST)
-    return replace(dataset, records=read), replace(dataset, records=tuple(unseen))
 
 
 def identifiable(model: Model) -> tuple[str, ...]:
