@@ -62,6 +62,7 @@ def _top(desk: Desk) -> None:
     with box("row"):
         start_button(desk, "Compare and refit", "compare", "main" if answer is None else "")
         if answer is not None:
+            start_button(desk, "Find what is missing", "diagnose", "main", then="/add")
             for step in answer.data["error"]:
                 value = step["fit"] or step["validate"]
                 name = step_name(step["step"])
@@ -112,7 +113,7 @@ def _record(desk: Desk, view: _View) -> None:
     logs = check.dataset.logs() if check else ()
     if check is None or not logs:
         if check is None or not check.records:
-            nothing("No records yet", "Drop a data set on the page Data.")
+            nothing(desk.doing or "No records yet", "" if desk.doing else "Drop a data set on the page Data.")
         return
     answer = _answer(desk)
     errors = _errors(answer)
@@ -145,10 +146,7 @@ def _worst(logs: Sequence[MeasuredRecord], errors: Mapping[int, Sequence[float |
 
 
 def _errors(answer: Answer | None) -> dict[int, list[float | None]]:
-    """Number of a log -> error over noise of the base and of the last model, the worst signal of each.
-
-    None for a model that has not simulated it.
-    """
+    """Number of a log -> error over noise of the base and the last model, its worst signal; None if not simulated."""
     stages = [] if answer is None else [answer.base, answer.last][: 1 if answer.last is answer.base else 2]
     found: dict[int, list[float | None]] = {}
     for k, stage in enumerate(stages):
@@ -160,22 +158,25 @@ def _errors(answer: Answer | None) -> dict[int, list[float | None]]:
 
 def _list(view: _View, dataset: Dataset, errors: Mapping[int, list[float | None]], picked: int) -> None:
     logs = dataset.logs()
-    columns = [("record", "words"), ("use", "words"), ("offset", "number"), ("amplitude", "number"), ("Hz", "number")]
+    sine = [("offset", "number"), ("amplitude", "number"), ("Hz", "number")]
+    sine = sine if any(log.offset is not None for log in logs) else []
+    columns = [("record", "words"), ("use", "words"), *sine]
     count = max((len(one) for one in errors.values()), default=0)
     columns += [("error, refitted" if k == 0 else "error, now", "number") for k in range(count)]
-    rows = [_row(log, command_unit(dataset, log.command), errors.get(k, []), count) for k, log in enumerate(logs)]
+    rows = [_row(log, dataset, errors.get(k, []), count, bool(sine)) for k, log in enumerate(logs)]
     with card("All records"):
         Table("Records", columns, rows, on_row=lambda k: _open(view, k), picked=picked, height="330px")
 
 
-def _row(log: MeasuredRecord, unit: str, errors: list[float | None], count: int) -> list[Any]:
-    """A log with its errors over noise, of which there are cells for so many."""
-    hertz = "" if log.frequency is None else f"{log.frequency:g}"
+def _row(log: MeasuredRecord, dataset: Dataset, errors: list[float | None], count: int, sine: bool) -> list[Any]:
+    """A log, what sine it is, and its errors over noise, of which there are cells for so many."""
+    unit, hertz = command_unit(dataset, log.command), "" if log.frequency is None else f"{log.frequency:g}"
     cells: list[Any] = ["" for _ in range(count)]
     for k, value in enumerate(errors):
         if value is not None:
             cells[k] = {"text": f"{value:.2f}", "value": value, "mark": "high" if value > BEYOND else "low"}
-    return [log.source, USES[log.use], quantity(log.offset, unit), quantity(log.amplitude, unit), hertz, *cells]
+    own = [quantity(log.offset, unit), quantity(log.amplitude, unit), hertz] if sine else []
+    return [log.source, USES[log.use], *own, *cells]
 
 
 def _bode(desk: Desk, view: _View) -> None:
@@ -186,8 +187,7 @@ def _bode(desk: Desk, view: _View) -> None:
         return
     tests = answer.base["responses"]
     number = view.response if view.response < len(tests) else 0
-    one = tests[number]
-    models = []
+    one, models = tests[number], []
     for key, words, stage in stage_keys(answer):
         side = stage["responses"][number]["simulated"] if number < len(stage["responses"]) else None
         if side is not None:

@@ -154,6 +154,7 @@ def test_of_a_file_with_two_records_each_has_its_own_curves_and_error(shown: Sho
     assert opened(tab) == ("used to choose", "z<br>(%)")  # the one that is worse
     rows = tab.page.locator("tr", has_text="both.txt")
     assert [row.split()[1:] for row in rows.all_inner_texts()] == [["fitted", "2.00"], ["used", "to", "choose", "7.00"]]
+    assert tab.page.locator("th", has_text="Hz").count() == 0  # none of them is a sine
     rows.nth(0).click()
     tab.page.locator("#record .chip", has_text="fitted").wait_for()
     assert opened(tab) == ("fitted", "y<br>(%)")
