@@ -101,7 +101,9 @@ def _failing(last: Mapping[str, CaseResult]) -> str:
         for name, result in last.items()
         if result.verdict == FAILS
     ]
-    return f"Claims that fail: {', '.join(named)}." if named else "No claim of these cases fails."
+    failing = f"Claims that fail: {', '.join(named)}." if named else "No claim of these cases fails."
+    unknown = len(CASES.keys() - last.keys())
+    return f"{failing} Nothing is known of the {unknown} cases that are not recorded." if unknown else failing
 
 
 def _not_held(result: CaseResult) -> list[str]:

@@ -33,7 +33,7 @@ NAMES = ("omega_v", "zeta_v", "L", "A_p", "V_0", "m_eff", "k", "b", "K_p", "K_D"
 LOCKED = ("L", "A_p")  # from the data sheet, Table 4.5
 VALVE = "u"
 TABLE_4_9 = {"locked": (7.86, 18.49), "free": (1.83, 9.47)}  # %, mean and maximum deviation of the valve
-EVERY = (16, 4, 1)  # sample of the wave's log that counts: 469, 1,875 and 7,501 of them
+EVERY = (16, 4, 1)  # sample of the wave's log that counts: 469, 1,876 and 7,501 of them
 # Another start than the thesis' values: inside the bounds, far from all of them
 ELSEWHERE = {
     "omega_v": 160.0, "zeta_v": 1.1, "V_0": 1e-4, "m_eff": 200.0, "k": 15e3, "b": 15e3, "K_p": 40.0, "K_D": 0.3,

@@ -49,7 +49,9 @@ def run() -> Iterator[Finding]:
         *((f"top with {n} pistons", Geometry(n).ripple()[0] * LITRES, value, 4 if n == 9 else 3, "l/min")
           for n, value in TOPS.items()),
     ):  # fmt: skip
-        yield Finding(f"{what}: {found:.5g}, off {printed} by", abs(found - printed), 0.5 * 10.0**-digits, unit)
+        own = what not in ("mean flow", "top with 9 pistons")  # all but these two are not printed in the thesis
+        text = f"{what}: {found:.5g}, off {printed} by"
+        yield Finding(text, abs(found - printed), 0.5 * 10.0**-digits, unit, regression=own)
     for pistons in TOPS:
         yield _fmu(pistons)
     yield from _stop()
