@@ -83,7 +83,7 @@ def describe_logs(folder: Path, columns: Sequence[Mapping[str, Any]], kind: str,
     Raises:
         BadInput: what has to be chosen otherwise.
     """
-    clocks = [_called(c, columns) for c in columns if c["role"] == "time"]
+    clocks = [c for c in columns if c["role"] == "time"]
     own = {role: {c["name"]: c for c in columns if c["role"] == role} for role in ("input", "output")}
     signals = own["input"] | own["output"]
     if len(clocks) != 1 or not all(own.values()):
@@ -92,13 +92,13 @@ def describe_logs(folder: Path, columns: Sequence[Mapping[str, Any]], kind: str,
         raise BadInput("columns: two have the same name; give each its own")
     if without := [name for name, c in signals.items() if not c["unit"]]:
         raise BadInput(f"{', '.join(without)}: choose a unit, or a dash to leave the column out")
-    time = next(c["unit"] for c in columns if c["role"] == "time")
+    time = {clocks[0]["heading"]: clocks[0]["unit"]} if clocks[0]["unit"] else {}  # another heading tells its own unit
     _refuse_unlike(folder, [c for c in columns if c["role"] != "-"])
     try:
         inputs, outputs = ({name: _called(c, columns) for name, c in one.items()} for one in own.values())
         load(
-            folder, inputs=inputs, outputs=outputs, time=clocks[0],
-            units={name: c["unit"] for name, c in signals.items()} | ({clocks[0]: time} if time else {}),
+            folder, inputs=inputs, outputs=outputs, time=_called(clocks[0], columns),
+            units={name: c["unit"] for name, c in signals.items()} | time,
             noise={name: c["noise"] for name, c in signals.items() if c["noise"] is not None},
             variables={name: c["variable"] for name, c in signals.items() if c["variable"]},
         ).save(into)  # fmt: skip
@@ -130,13 +130,13 @@ def _refuse_unlike(folder: Path, columns: Sequence[Mapping[str, Any]]) -> None:
     """A log that lacks a column of the others, or has it in another unit."""
     for log in sorted(path for path in folder.rglob("*") if path.suffix.lower() in READERS):
         (table, *more) = READERS[log.suffix.lower()](log)
-        for heading in () if more else (str(c["heading"]) for c in columns):
+        for heading, role in () if more else ((str(c["heading"]), c["role"]) for c in columns):
             name, unit = name_and_unit(heading)
             found = [one for one in table.headings if one == heading or name_and_unit(one)[0] == name]
             if not found:
                 its = ", ".join(map(repr, table.headings))
                 raise BadInput(f"{log.name} has no column {heading!r}, but {its}; all logs need the same columns")
-            if heading not in found and {name_and_unit(one)[1] for one in found} - {"", unit}:
+            if role != "time" and heading not in found and {name_and_unit(one)[1] for one in found} - {"", unit}:
                 raise BadInput(f"{log.name} has {found[0]!r}, and another log {heading!r}; give all logs one unit")
 
 

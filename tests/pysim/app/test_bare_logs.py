@@ -120,6 +120,18 @@ def test_times_are_in_the_unit_that_was_chosen(tmp_path: Path) -> None:
     assert log.time[-1] == pytest.approx(TIME[-1])  # type: ignore[union-attr]
 
 
+def test_each_heading_tells_the_unit_of_its_own_clock(tmp_path: Path) -> None:
+    folder = tmp_path / "logs"
+    folder.mkdir()
+    for name, unit, factor in (("a", "ms", 1000), ("b", "s", 1)):
+        table = np.column_stack([factor * TIME, TIME, TIME])
+        np.savetxt(folder / f"{name}.csv", table, "%.6f", ",", header=f"time [{unit}],u [V],y [bar]", comments="")
+    chosen = [column("time [ms]", "time", "time", "ms"), column("u [V]", "u", "input", "V")]
+    data = taken(folder, [*chosen, column("y [bar]", "y", "output", "bar")])
+    for log in data.logs():
+        assert log.data.time == pytest.approx(TIME, abs=1e-6)  # type: ignore[union-attr]
+
+
 def test_a_heading_in_volts_is_remembered_where_another_quantity_is_chosen(tmp_path: Path) -> None:
     folder = tmp_path / "logs"
     folder.mkdir()
