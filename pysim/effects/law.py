@@ -5,6 +5,7 @@ The text is parsed, never run: a few functions of plain names can be worked out,
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
@@ -215,15 +216,31 @@ _USUAL = ("N", "N/m", "N.s", "N.s/m", "N.s2/m2", "N/m3", "N.m", "N.m.s", "N.m.s2
           "m3/(s.Pa)", "V", "W", "J", "W/K", "J/K")  # fmt: skip
 _UNIT_FREE = ("tanh", "exp", "sin", "cos", "^")  # take numbers and give one; ^ where its exponent is no written number
 _SUMS = ("+", "-", "max", "min", "<", "<=", ">", ">=", "==", "<>")
+# Source: Modelica Specification 3.6, Section 19.2.
+_FACTOR = r"[A-Za-zµμ°%']+(?:[+-]?\d+)?"
+_FACTORS = rf"(?:1|{_FACTOR}(?:\.{_FACTOR})*)"
+_UNIT = re.compile(rf"(?:{_FACTORS}|\({_FACTORS}\))?(?:/(?:{_FACTOR}|\({_FACTORS}(?:/{_FACTOR})?\)))?")
+
+
+def check_unit(unit: str) -> None:
+    """Refuse what Modelica cannot read as a unit; a symbol may be any.
+
+    Raises:
+        ValueError: brackets, powers or signs that no unit has.
+    """
+    if not _UNIT.fullmatch(unit):
+        how = "write whole powers and brackets as in m3/(s.Pa), and under a root a ratio"
+        raise ValueError(f"{unit} is no unit of Modelica; {how}, as in Q_n*sqrt(p/p_n) or Q_n*sqrt(p/1e5)")
 
 
 def dimension(unit: str) -> Dimension:
     """Exponents of the base units in an SI unit, such as "N.s2/m2" or "1/(Pa.s)".
 
     Raises:
-        ValueError: a symbol that is no SI unit.
+        ValueError: what Modelica cannot read, or a symbol that is no SI unit.
     """
-    above, _, below = unit.replace(" ", "").partition("/")
+    check_unit(unit)
+    above, _, below = unit.partition("/")
     found: Dimension = {}
     for part, sign in ((above, 1), (below.strip("()"), -1)):
         for factor in filter(None, part.split(".")):

@@ -1,12 +1,13 @@
 """Equations of effects as numbers: what they give, what they remember, and that nothing else is run."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 
 from fmu_build.text.expressions import parse
-from pysim.effects.law import Moment, check_units, dimension, dimension_words, read_law
+from pysim.effects.law import Moment, check_unit, check_units, dimension, dimension_words, read_law
 
 
 def test_equations_are_worked_out_in_whatever_order_they_stand() -> None:
@@ -132,6 +133,23 @@ def test_a_law_has_the_unit_of_what_it_gives(law: str, unit: str) -> None:
 def test_units_that_do_not_agree_are_refused(law: str, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         check_units(parse(law), UNITS)
+
+
+@pytest.mark.parametrize(
+    "unit", ["m3/(s.Pa(1/2))", "m3/(s.Pa0.5)", "N*m", "m^2", "N.m/s/rad", "N m", "m³", "-", "m3/(s.Pa"]
+)
+def test_a_unit_that_modelica_cannot_read_is_refused_with_what_to_write(unit: str) -> None:
+    with pytest.raises(
+        ValueError, match=f"^{re.escape(unit)} is no unit of Modelica; write whole powers .* under a root"
+    ):
+        dimension(unit)
+
+
+@pytest.mark.parametrize(
+    "unit", ["", "1", "%", "l/min", "°C", "m3.s-1", "(N.m)/(rad.s)", "m/(N/s)", "m+2", "1/(V2.s2)"]
+)
+def test_a_unit_of_modelica_may_have_any_symbol(unit: str) -> None:
+    check_unit(unit)
 
 
 @pytest.mark.parametrize("unit", ["1", "N", "N.s/m", "Pa", "m3/s", "m3/(s.Pa)", "kg/m3", "1/s", "m/(K.s)", "kg.m3/s4"])

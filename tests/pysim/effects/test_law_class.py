@@ -96,6 +96,7 @@ def test_units_of_a_slot_are_those_of_its_partial_class() -> None:
         ("f = -c_2*v", "f is in N, and what stands behind it in N.s/m"),
         ("f = 0;\nq = x + v", r"line 2, column 1: 'q = x \+ v': \+ takes m and m/s together"),
         ("f = -c_2*v^2;\nf = 0", "line 2, column 1: f is given already; keep one of the two"),
+        ("r = sqrt(v);\nf = -c_2*r", "column 1: 'r = sqrt.v.': .* is no unit of Modelica; .* under a root a ratio"),
         ("x = 1", "x is given already; the slot gives f"),
         ("q = v*w", "nothing gives f of the slot force"),
         ("f = q;\nq = f", "line 1, column 1: f depends on itself"),
@@ -125,6 +126,7 @@ def test_mistakes_in_a_law_are_said_with_their_place(law: str, said: str) -> Non
     ("parameter", "said"),
     [
         (replace(DRAG, unit=""), 'c_2 has no unit; write "1" for a plain number'),
+        (replace(DRAG, unit="N/(m.s0.5)"), r"c_2: N/\(m.s0.5\) is no unit of Modelica"),
         (replace(DRAG, unit="furlong"), "c_2: furlong is no SI unit"),
         (replace(DRAG, name="v"), "v is named twice, or is a variable of the slot force"),
         (replace(DRAG, name="w"), "w is named twice"),

@@ -90,6 +90,8 @@ def test_a_root_of_a_ratio_follows_the_learned_curve(place: LawPlace) -> None:
         ("v - 2*x", 0, "- takes m/s and m together"),
         ("-F*tanh(v) + x", 0, "tanh is given m/s"),
         ("-F + v", 0, r"\+ takes N and m/s together"),
+        ("-C*sqrt(v)", 1, "the parameter C: .* is no unit of Modelica; .* under a root a ratio, as in Q_n"),
+        ("-C*v^(1/2)", 1, "the parameter C: .* is no unit of Modelica"),
         ("-c*v^n", 0, r"\^ is given m/s; divide by a width"),
         ("-c*v^(2^30)", 0, "a power of 30 is no law"),
         ("", 0, "law"),
