@@ -16,6 +16,7 @@ from fmu_build.text.expressions import literal
 from fmu_build.text.libraries import bundled_library, files_of, read_text
 from fmu_build.text.tokens import string_value
 from pysim.effects._text import as_bad_input, attributes_of, known_class
+from pysim.effects.law import check_unit
 from pysim.types import BadInput, Effect, EffectParameter
 
 VENDOR = "__HydraulicTestBench"  # the annotation's name
@@ -160,6 +161,11 @@ def _parameters(declaration: Declaration, text: ClassText, library: Libraries) -
             raise BadInput(
                 f"{where} has no {attribute}, which a fit needs; write it there, or declare constant what stays"
             )
+    unit = attributes["unit"].strip().strip('"')
+    try:
+        check_unit(unit)
+    except ValueError as error:
+        raise BadInput(f"{where}: {error}") from error
     if not declaration.value:
         raise BadInput(f"{where} has no value; declare it with = 0 for off, or with a usual size")
     known = _integers(text)
@@ -167,12 +173,12 @@ def _parameters(declaration: Declaration, text: ClassText, library: Libraries) -
     numbers = {name: _number(value, where, known) for name, value in attributes.items() if name in _NUMBERS}
     count = _size(declaration, where, known)
     if count is None:
-        yield _parameter(declaration.name, default, numbers, attributes["unit"], declaration, where)
+        yield _parameter(declaration.name, default, numbers, unit, declaration, where)
         return
     for k in range(count):
         own = {name: _element(value, k, count, where) for name, value in numbers.items()}
         name, value = f"{declaration.name}[{k + 1}]", _element(default, k, count, where, of_value=True)
-        yield _parameter(name, value, own, attributes["unit"], declaration, where)
+        yield _parameter(name, value, own, unit, declaration, where)
 
 
 _NUMBERS = ("min", "max", "nominal", "start")
@@ -190,7 +196,7 @@ def _parameter(
     try:
         return EffectParameter(
             name,
-            unit.strip().strip('"'),
+            unit,
             low,
             high,
             numbers.get("nominal", max(abs(low), abs(high)) / 10),

@@ -5,7 +5,8 @@ The text is parsed, never run: a few functions of plain names can be worked out,
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+import re
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import Any
@@ -185,7 +186,7 @@ class Moment:
 
 
 def _power(base: Any, exponent: Any) -> Any:
-    if np.max(np.abs(exponent)) > _STEEPEST:
+    if not np.max(np.abs(exponent)) <= _STEEPEST:
         raise ValueError(f"a power of {np.max(np.abs(exponent)):g} is no law")
     return np.power(np.asarray(base, float), exponent)
 
@@ -204,22 +205,42 @@ ARGUMENTS = {name: 3 if name == IF else 1 if name in _UNARY else 2 for name in _
 # --- units -----------------------------------------------------------------------------------------------------------
 
 Dimension = dict[str, float]  # exponents of kg, m, s, A, K; an angle is a number
+_Alike = Callable[[str, Sequence[Dimension | None]], None]
 _DERIVED: Mapping[str, Dimension] = {
     "N": {"kg": 1, "m": 1, "s": -2}, "Pa": {"kg": 1, "m": -1, "s": -2}, "J": {"kg": 1, "m": 2, "s": -2},
     "W": {"kg": 1, "m": 2, "s": -3}, "%": {}, "V": {"kg": 1, "m": 2, "s": -3, "A": -1}, "Hz": {"s": -1}, "rad": {},
     **{base: {base: 1} for base in ("kg", "m", "s", "A", "K")},
 }  # fmt: skip
-_UNIT_FREE = ("tanh", "exp", "sin", "cos")
+# As people write them; any other unit is a quotient of base units.
+_USUAL = ("N", "N/m", "N.s", "N.s/m", "N.s2/m2", "N/m3", "N.m", "N.m.s", "N.m.s2", "N/A", "Pa", "1/Pa", "Pa.s",
+          "m3/(s.Pa)", "V", "W", "J", "W/K", "J/K")  # fmt: skip
+_UNIT_FREE = ("tanh", "exp", "sin", "cos", "^")  # take numbers and give one; ^ where its exponent is no written number
 _SUMS = ("+", "-", "max", "min", "<", "<=", ">", ">=", "==", "<>")
+# Source: Modelica Specification 3.6, Section 19.2.
+_FACTOR = r"[A-Za-zµμ°%']+(?:[+-]?\d+)?"
+_FACTORS = rf"(?:1|{_FACTOR}(?:\.{_FACTOR})*)"
+_UNIT = re.compile(rf"(?:{_FACTORS}|\({_FACTORS}\))?(?:/(?:{_FACTOR}|\({_FACTORS}(?:/{_FACTOR})?\)))?")
+
+
+def check_unit(unit: str) -> None:
+    """Refuse what Modelica cannot read as a unit; a symbol may be any.
+
+    Raises:
+        ValueError: brackets, powers or signs that no unit has.
+    """
+    if not _UNIT.fullmatch(unit):
+        how = "write whole powers and brackets as in m3/(s.Pa), and under a root a ratio"
+        raise ValueError(f"{unit} is no unit of Modelica; {how}, as in Q_n*sqrt(p/p_n) or Q_n*sqrt(p/1e5)")
 
 
 def dimension(unit: str) -> Dimension:
     """Exponents of the base units in an SI unit, such as "N.s2/m2" or "1/(Pa.s)".
 
     Raises:
-        ValueError: a symbol that is no SI unit.
+        ValueError: what Modelica cannot read, or a symbol that is no SI unit.
     """
-    above, _, below = unit.replace(" ", "").partition("/")
+    check_unit(unit)
+    above, _, below = unit.partition("/")
     found: Dimension = {}
     for part, sign in ((above, 1), (below.strip("()"), -1)):
         for factor in filter(None, part.split(".")):
@@ -227,7 +248,7 @@ def dimension(unit: str) -> Dimension:
             if factor != "1" and symbol not in _DERIVED:
                 raise ValueError(f"{unit} is no SI unit; write it with kg, m, s, A, K, rad, N, Pa, J, W, V and Hz")
             power = sign * int(factor[len(symbol) :] or 1) if symbol else 0
-            found = _joined(found, _DERIVED.get(symbol, {}), power)
+            found = joined(found, _DERIVED.get(symbol, {}), power)
     return found
 
 
@@ -242,40 +263,65 @@ def check_units(tree: Tree, units: Mapping[str, str | None]) -> Dimension | None
     Raises:
         ValueError: a sum or comparison of two quantities, a unit in tanh() and the like, or a name without a unit.
     """
+
+    def named(name: str) -> Dimension | None:
+        if name.removeprefix(_PRE) not in units:
+            raise ValueError(f"{name} has no unit; the law may name {', '.join(units) or 'nothing'}")
+        unit = units[name.removeprefix(_PRE)]
+        return None if unit is None else dimension(unit)
+
+    def alike(function: str, own: Sequence[Dimension | None]) -> None:
+        known = [one for one in own if one is not None]
+        if function in _UNIT_FREE and any(known):
+            given = dimension_words(next(filter(None, known)))
+            raise ValueError(f"{function} is given {given}; divide by a width of that unit")
+        if any(one != known[0] for one in known):
+            both = " and ".join(map(dimension_words, known))
+            raise ValueError(f"{function} takes {both} together; give both the same unit")
+
+    return unit_of(tree, named, alike)
+
+
+def unit_of(tree: Tree, named: Callable[[str], Dimension | None], alike: _Alike) -> Dimension | None:
+    """The dimension of an expression, as `check_units` has it.
+
+    Args:
+        named: that of a name.
+        alike: called with every function, and the dimensions that have to be the same in it.
+    """
     match tree:
         case Number():
             return None
         case Name(name):
-            if name.removeprefix(_PRE) not in units:
-                raise ValueError(f"{name} has no unit; the law may name {', '.join(units) or 'nothing'}")
-            unit = units[name.removeprefix(_PRE)]
-            return None if unit is None else dimension(unit)
-    own = [check_units(argument, units) for argument in tree.arguments]
+            return named(name)
+    own = [unit_of(argument, named, alike) for argument in tree.arguments]
     match tree.function, own:
         case ("*", [one, other]):
-            return _joined(one or {}, other or {}, 1) if one is not None or other is not None else None
+            return joined(one or {}, other or {}, 1) if one is not None or other is not None else None
         case ("/", [one, other]):
-            return None if other is None else _joined(one or {}, other, -1)
-        case ("^", [base, _]):
-            exponent = tree.arguments[1]
-            return _joined({}, base, exponent.value) if base is not None and isinstance(exponent, Number) else None
+            return None if other is None else joined(one or {}, other, -1)
         case ("sqrt", [base]):
-            return None if base is None else _joined({}, base, 0.5)
-    if tree.function in _UNIT_FREE and any(own):
-        raise ValueError(f"{tree.function}() is given {dimension_words(own[0])}; divide by a width of that unit")
-    values = own[1:] if tree.function in (IF, "smooth") else own
-    known = [one for one in values if one is not None]
-    if any(one != known[0] for one in known):
-        both = " and ".join(map(dimension_words, known))
-        raise ValueError(f"{tree.function} takes {both} together; give both the same unit")
-    return {} if tree.function in (*_UNIT_FREE, *_SUMS[4:], "and", "or", "not", "sign") else next(iter(known), None)
+            return None if base is None else joined({}, base, 0.5)
+        case ("^", [base, _]) if not any(names_in(tree.arguments[1])):
+            exponent = Moment(Law(), {}).value(tree.arguments[1])
+            _power(1.0, exponent)  # refuses what is none
+            return None if base is None else joined({}, base, float(exponent))
+    values = [*own, {}] if tree.function in _UNIT_FREE else own[1:] if tree.function in (IF, "smooth") else own
+    alike(tree.function, values)
+    is_number = tree.function in (*_UNIT_FREE, *_SUMS[4:], "and", "or", "not", "sign")
+    return {} if is_number else next((one for one in values if one is not None), None)
 
 
-def _joined(one: Dimension, other: Dimension, power: float) -> Dimension:
+def joined(one: Dimension, other: Dimension, power: float) -> Dimension:
+    """One times a power of the other."""
     found = {base: one.get(base, 0) + power * other.get(base, 0) for base in {**one, **other}}
     return {base: exponent for base, exponent in sorted(found.items()) if exponent}
 
 
 def dimension_words(found: Dimension | None) -> str:
-    """A dimension as a unit; "1" where there is none."""
-    return ".".join(f"{base}{exponent:g}" if exponent != 1 else base for base, exponent in (found or {}).items()) or "1"
+    """A dimension as people write it; "1" where there is none, and no unit of Modelica where a power is broken."""
+    found = found or {}
+    words = {one: one if abs(power) == 1 else f"{one}{abs(power):g}" for one, power in found.items()}
+    above, below = (".".join(words[one] for one in found if sign * found[one] > 0) for sign in (1, -1))
+    plain = (above or "1") + (f"/({below})" if "." in below else below and f"/{below}")
+    return next((unit for unit in _USUAL if dimension(unit) == found), plain)

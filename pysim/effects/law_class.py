@@ -79,7 +79,7 @@ def law_class(
         BadInput: what the law may not name or call, units that do not fit, a variable of the slot that no equation
             gives; says where in the law.
     """
-    _check_names(name, slot, parameters)
+    _check_names(name, slot, law, parameters)
     units = slot_units(slot, libraries) | {one.name: one.unit for one in parameters} | {"time": "s"}
     equations = list(_equations(name, law, slot))
     given = [one.gives for one in equations]
@@ -127,7 +127,7 @@ def slot_units(slot: Slot, libraries: Sequence[Path]) -> dict[str, str | None]:
     return found
 
 
-def _check_names(name: str, slot: Slot, parameters: Sequence[EffectParameter]) -> None:
+def _check_names(name: str, slot: Slot, law: str, parameters: Sequence[EffectParameter]) -> None:
     taken = [*slot.gives, *slot.sees]
     for one in (name, *(parameter.name for parameter in parameters)):
         if not re.fullmatch(r"[A-Za-z_]\w*", one, re.ASCII) or one in _KEYWORDS:
@@ -141,7 +141,8 @@ def _check_names(name: str, slot: Slot, parameters: Sequence[EffectParameter]) -
         try:
             dimension(parameter.unit)
         except ValueError as error:
-            raise BadInput(f"law of {name}: the parameter {parameter.name}: {error}") from error
+            place = _place(law, parameter.name, 0)
+            raise _refusal(name, law, place, f"the parameter {parameter.name}: {error}") from error
 
 
 def _equations(name: str, law: str, slot: Slot) -> Iterator[_Equation]:
@@ -191,6 +192,7 @@ def _local_units(
         left.remove(one)
         try:
             found = check_units(one.tree, known)
+            dimension(dimension_words(found))  # refuses a broken power
         except ValueError as error:
             raise _refusal(name, law, one.start, f"{one.written!r}: {error}") from error
         if one.gives not in known:

@@ -187,6 +187,7 @@ def test_refuses_arrays_that_do_not_agree(tmp_path: Path, old: str, new: str, me
     [
         ("min=0, max=50", "max=50", "T_c has no min"),
         ('final unit="s/rad", ', "", "s has no unit"),
+        ('unit="s/rad"', 'unit="s/rad(1/2)"', r"s: s/rad\(1/2\) is no unit of Modelica; write whole powers"),
         ("= 1/2^2", "= other", "'other' must be a number"),
         ("= 1/2^2", "", "s has no value"),
         ("max=2*5e2", "max=-20", "put the smaller first"),

@@ -1,12 +1,13 @@
 """Equations of effects as numbers: what they give, what they remember, and that nothing else is run."""
 
 import math
+import re
 
 import numpy as np
 import pytest
 
 from fmu_build.text.expressions import parse
-from pysim.effects.law import Moment, check_units, dimension, read_law
+from pysim.effects.law import Moment, check_unit, check_units, dimension, dimension_words, read_law
 
 
 def test_equations_are_worked_out_in_whatever_order_they_stand() -> None:
@@ -107,6 +108,8 @@ UNITS = {"x": "m", "v": "m/s", "c": "N.s2/m2", "F": "N", "w": "m/s", "n": "1", "
         ("if v > 0 then p*A else max(F, 2*F) - 3", "N"),
         ("sqrt(A)*x/t^2", "m2/s2"),
         ("v*t - x", "m"),
+        ("F*(v/w)^n", "N"),
+        ("F*(x/t)^(-2)*v^(1 + 1)", "N"),
     ],
 )
 def test_a_law_has_the_unit_of_what_it_gives(law: str, unit: str) -> None:
@@ -116,10 +119,13 @@ def test_a_law_has_the_unit_of_what_it_gives(law: str, unit: str) -> None:
 @pytest.mark.parametrize(
     ("law", "message"),
     [
-        ("x + v", r"\+ takes m and m\.s-1 together"),
+        ("x + v", r"\+ takes m and m/s together"),
         ("if x > v then F else F", "> takes m and"),
         ("max(F, p)", "max takes"),
-        ("F*tanh(v)", r"tanh\(\) is given m\.s-1; divide by a width"),
+        ("F*tanh(v)", "tanh is given m/s; divide by a width"),
+        ("F*v^n", r"\^ is given m/s; divide by a width"),
+        ("F*v^99", "a power of 99 is no law"),
+        ("c*v^(0/0)", "a power of nan is no law"),
         ("F*q", "q has no unit; the law may name x, v"),
         ("if v > 0 then F else x", "if takes"),
     ],
@@ -127,6 +133,28 @@ def test_a_law_has_the_unit_of_what_it_gives(law: str, unit: str) -> None:
 def test_units_that_do_not_agree_are_refused(law: str, message: str) -> None:
     with pytest.raises(ValueError, match=message):
         check_units(parse(law), UNITS)
+
+
+@pytest.mark.parametrize(
+    "unit", ["m3/(s.Pa(1/2))", "m3/(s.Pa0.5)", "N*m", "m^2", "N.m/s/rad", "N m", "m³", "-", "m3/(s.Pa"]
+)
+def test_a_unit_that_modelica_cannot_read_is_refused_with_what_to_write(unit: str) -> None:
+    with pytest.raises(
+        ValueError, match=f"^{re.escape(unit)} is no unit of Modelica; write whole powers .* under a root"
+    ):
+        dimension(unit)
+
+
+@pytest.mark.parametrize(
+    "unit", ["", "1", "%", "l/min", "°C", "m3.s-1", "(N.m)/(rad.s)", "m/(N/s)", "m+2", "1/(V2.s2)"]
+)
+def test_a_unit_of_modelica_may_have_any_symbol(unit: str) -> None:
+    check_unit(unit)
+
+
+@pytest.mark.parametrize("unit", ["1", "N", "N.s/m", "Pa", "m3/s", "m3/(s.Pa)", "kg/m3", "1/s", "m/(K.s)", "kg.m3/s4"])
+def test_dimensions_are_written_as_people_write_them(unit: str) -> None:
+    assert dimension_words(dimension(unit)) == unit
 
 
 def test_what_is_no_unit_is_refused() -> None:

@@ -73,13 +73,27 @@ def test_a_law_of_another_variable_has_no_curve_but_its_parameters(place: LawPla
     assert typed_law("-k_3*x^3", place).ranges == found.ranges
 
 
+def test_a_root_of_a_ratio_follows_the_learned_curve(place: LawPlace) -> None:
+    law = learned(lambda v: -F_C * np.sign(v) * np.sqrt(np.abs(v) / V_0))
+    found = typed_law("-F_n*sign(v)*sqrt(abs(v)/v_n)", place, law)
+    assert {name: own.unit for name, own in found.ranges.items()} == {"F_n": "N", "v_n": "m/s"}
+    size = found.ranges["F_n"].usual / np.sqrt(found.ranges["v_n"].usual)
+    assert size == pytest.approx(F_C / np.sqrt(V_0), rel=0.01)  # only this quotient acts
+
+
 @pytest.mark.parametrize(
     ("law", "at", "said"),
     [
         ("-F_c*tan(v)", 5, "tan is no function"),
         ("-F_c*tanh(v", 11, "law"),
         ("f = -F_c*v; g", 12, "law"),
-        ("v - 2*x", 0, "takes"),
+        ("v - 2*x", 0, "- takes m/s and m together"),
+        ("-F*tanh(v) + x", 0, "tanh is given m/s"),
+        ("-F + v", 0, r"\+ takes N and m/s together"),
+        ("-C*sqrt(v)", 1, "the parameter C: .* is no unit of Modelica; .* under a root a ratio, as in Q_n"),
+        ("-C*v^(1/2)", 1, "the parameter C: .* is no unit of Modelica"),
+        ("-c*v^n", 0, r"\^ is given m/s; divide by a width"),
+        ("-c*v^(2^30)", 0, "a power of 30 is no law"),
         ("", 0, "law"),
     ],
 )
