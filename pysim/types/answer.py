@@ -207,8 +207,8 @@ class ErrorStep:
         step: "prior", "refit", or the effects that came in, joined by " + ".
         fit, validate, test: rms residual over the noise floor of logs fitted, used to choose, and held out; None
             where there is no such log.
-        criteria: worst value of each criterion of thesis Tables 1.3 and 1.4, by symbol.
-        passes: whether all of these are within their limits.
+        criteria: worst value of each criterion of thesis Tables 1.3 and 1.4, by symbol; none where they do not hold.
+        passes: whether all of these are within their limits, and every record was simulated.
         cost: of the objective.
         not_simulated: number of records that the model could not be run through.
         estimates, undetermined: parameters of this model; what the data do not determine.

@@ -11,13 +11,16 @@ from pysim.workflow.session import SessionParts
 
 
 def whole_answer(found: Diagnosis, parts: SessionParts, *, place: str = "", command: str = "") -> Diagnosis:
-    """The answer with its conditions, and with a class for each law that was learned.
+    """The answer with its conditions, judged by the thesis' limits where they hold, with a class for each learned law.
 
     Args:
         place, command: where the data set is, and what gives the answer again; "" where there is none.
     """
     conditions = _conditions(parts, place) | ({"command": command} if command else {})
     found = replace(found, conditions={**conditions, **found.conditions})
+    if not parts.inside.is_thesis_pump:
+        unjudged = (replace(step, criteria={}, passes=not step.not_simulated) for step in found.history)
+        found = replace(found, history=tuple(unjudged))
     if found.learned and parts.variants is not None:
         found = with_classes(found, parts.variants.class_name, parts.variants.libraries)
     return found

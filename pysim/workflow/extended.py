@@ -123,7 +123,7 @@ def _limits(found: Diagnosis, parts: SessionParts) -> list[str]:
     if not any(record.held_out for record in parts.dataset.records):
         texts.append("for other excitation without a test: every record was fitted")
     last = found.history[-1] if found.history else None
-    if last is not None and not last.passes and parts.inside.is_thesis_pump:
+    if last is not None and last.criteria and not last.passes:
         texts.append(f"as a match by the thesis' limits: {limits_sentence(last)}".removesuffix("."))
     if not found.complete:
         texts.append("as complete: more than noise is left, and what that is could not be named")

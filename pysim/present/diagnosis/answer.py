@@ -140,7 +140,7 @@ def _history(diagnosis: Diagnosis) -> Iterator[str]:
         yield f"Residual by step, in {UNIT} (1: noise alone)"
     for step in diagnosis.history:
         numbers = "".join(f"  {use} {size_text(value):>7}" for use, value in errors(step).items())
-        yield f"  {step_name(step.step):<20}{numbers}  {limits_words(step)}"
+        yield f"  {step_name(step.step):<20}{numbers}  {limits_words(step)}".rstrip()
 
 
 def _signals(diagnosis: Diagnosis) -> Iterator[str]:

@@ -171,7 +171,7 @@ def _parameter(before: Estimate, after: Estimate | None, move: float | None, hel
 
 def _history(steps: Sequence[ErrorStep]) -> str:
     shown = [c for c in CRITERIA.values() if any(c.symbol in step.criteria for step in steps)]
-    unseen = any(step.test is not None for step in steps)
+    unseen, judged = any(step.test is not None for step in steps), any(map(limits_words, steps))
     rows = []
     for step in steps:
         values = (step.fit, step.validate, *((step.test,) if unseen else ()))
@@ -180,9 +180,10 @@ def _history(steps: Sequence[ErrorStep]) -> str:
             value = step.criteria.get(criterion.symbol)
             kind = "" if value is None or value <= criterion.limit else "beyond"
             numbers.append(cell("" if value is None else f"{value:.3g}", kind))
-        kind = "" if not (step.criteria or step.not_simulated) else "pass" if step.passes else "fail"
-        rows.append([step_name(step.step), *numbers, cell(limits_words(step), kind)])
+        verdict = cell(limits_words(step), "pass" if step.passes else "fail")
+        rows.append([step_name(step.step), *numbers, *([verdict] if judged else [])])
     head = ["model", *[*USES.values()][: 3 if unseen else 2]]
     head += [f"{c.name} ({c.unit}, limit {c.limit:g})" for c in shown]
-    caption = "Residual over noise (1: noise alone); worst value of each criterion of thesis Tables 1.3 and 1.4"
-    return table(caption, [*head, "limits"], rows, words=[0]) if rows else ""
+    head += ["limits"] if judged else []
+    caption = f"Residual over noise (1: noise alone){'; worst value of each criterion' if shown else ''}"
+    return table(caption, head, rows, words=[0]) if rows else ""

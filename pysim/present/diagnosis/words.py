@@ -96,7 +96,7 @@ def _step_text(step: ErrorStep) -> str:
     who = {PRIOR: "As it is, the model", REFIT: "Refitted, it"}.get(step.step, f"With {step.step}, it")
     parts = [f"{size_text(value)} {_on_logs(use)}" for use, value in errors(step).items()]
     left = f"leaves a residual of {listed(parts)}, in {UNIT}" if parts else "is judged by frequency responses alone"
-    return f"{who} {left}. {limits_sentence(step)}"
+    return f"{who} {left}. {limits_sentence(step)}".rstrip()
 
 
 def ranking_sentence(diagnosis: Diagnosis) -> str:
@@ -113,7 +113,7 @@ def ranking_sentence(diagnosis: Diagnosis) -> str:
 
 def added_sentence(diagnosis: Diagnosis) -> str:
     """What the effects that were asked for do to the error."""
-    return f"{_asked(diagnosis)} {_fall(diagnosis)} {limits_sentence(diagnosis.history[-1])}"
+    return " ".join(filter(None, [_asked(diagnosis), _fall(diagnosis), limits_sentence(diagnosis.history[-1])]))
 
 
 def candidates_shown(diagnosis: Diagnosis) -> list[Rival]:
@@ -196,7 +196,7 @@ def limits_words(step: ErrorStep) -> str:
     """The same in a few words."""
     verdicts = [
         f"{criteria[0].source.removeprefix('thesis ')} {_verdict(step, criteria)}" for criteria in _judging(step)
-    ] or ["no limits"]
+    ]
     return ", ".join([*verdicts, *([_lost(step)] if step.not_simulated else [])])
 
 

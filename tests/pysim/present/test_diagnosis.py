@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from pysim.present import Drawing, data, diagnosis, text
-from pysim.present.diagnosis import Diagnosed
+from pysim.present.diagnosis import Diagnosed, figures
 from pysim.present.diagnosis.law_words import ABSORBED, formula_text, law_kind, law_sentence
 from pysim.present.diagnosis.words import (
     added_sentence,
@@ -216,7 +216,6 @@ def test_a_formula_has_its_unit_and_its_factor(given: tuple[str, str, str], whol
             "Table 1.3 not met, Table 1.4 met",
             [0.2, 0.5, 35.001, 35, 3.4, 10],
         ),
-        ({}, True, 0, "no limits", []),
         (
             {"E_M mean": 0.2, "E_t max": 30.0},
             False,
@@ -233,6 +232,14 @@ def test_each_table_has_its_own_verdict_with_numbers_and_limits(
     assert numbers(limits_sentence(one)) == told
     for shown in (text(found_offset(history=(one,))), page(found_offset(history=(one,)))):
         assert verdicts in shown
+
+
+def test_a_model_without_limits_is_not_judged() -> None:
+    found = found_offset()
+    bare = replace(found, history=tuple(replace(one, criteria={}, passes=True) for one in found.history))
+    for judge in (text, page, added_sentence, comparison_sentence, lambda one: next(figures(Diagnosed(one))).caption):
+        assert re.search(r"Tables? 1\.", judge(found))
+        assert not re.search(r"thesis|Tables? 1\.|limits?\b", judge(bare), re.IGNORECASE)
 
 
 def test_json_has_each_sentence_beside_its_numbers() -> None:

@@ -25,6 +25,7 @@ from pysim.workflow import (
     model_of,
     session_of,
     session_parts,
+    whole_answer,
     write_extended,
 )
 from pysim.workflow.extended import extended_name
@@ -158,7 +159,7 @@ def test_the_header_tells_when_not_to_trust_it(found: Diagnosis, tmp_path: Path)
     ]
     failing = replace(found, history=(replace(found.history[-1], passes=False),))
     pump = replace(given(), inside=replace(given().inside, is_thesis_pump=True))
-    weak += [(failing, pump), (failing, given())]  # its limits are for its pump alone
+    weak += [(whole_answer(failing, one), one) for one in (pump, given())]  # its limits are for its pump alone
     limits = [sum(line.startswith("- ") for line in head(*one, tmp_path).splitlines()) for one in weak]
     assert limits == [limits[0], *[limits[0] + 1] * 4, limits[0]]
 
