@@ -148,14 +148,15 @@ def _parameters(diagnosis: Diagnosis) -> list[str]:
         return []
     moves = {} if last is None else last.moves_from(base)
     biased = [name for name, move in moves.items() if move is not None and move > 1]
-    pushed = f"Without the effect, the fit had pushed {listed(biased)} to wrong values." if biased else ""
+    where = "a wrong value" if len(biased) == 1 else "wrong values"
+    pushed = f"Without what was added, the fit had pushed {listed(biased)} to {where}." if biased else ""
     ends = {} if last is None else {e.name: e for e in last.estimates}
     open_ = (base if last is None else last).undetermined
     held = {next(iter(d.exponents)) for d in open_}
     rows = [_parameter(e, ends.get(e.name), moves.get(e.name), e.name in held) for e in base.estimates]
     head = ["parameter", "unit", "as it is", "refitted", "95 % from", "to"]
     head += ["at the end", "95 % from", "to", "moved by", ""] if last else [""]
-    caption = "Fitted parameters; moves in half widths of the interval at the end"
+    caption = "Fitted parameters; moves in half widths of their 95 % intervals"
     scale = [direction_words(d) for d in open_]
     shown = table(caption, head, rows, words=[len(head) - 1])
     return [paragraph(pushed) if pushed else "", shown, *(paragraph(text) for text in scale)]

@@ -279,6 +279,15 @@ def test_the_page_needs_nothing_else_and_has_no_empty_sections() -> None:
     assert less.count("<h2>") < whole.count("<h2>") - 3
 
 
+def test_only_a_parameter_that_both_intervals_do_not_allow_was_pushed() -> None:
+    """The damping's fall is beyond both intervals; the same fall within the earlier one proves nothing."""
+    found = found_offset()
+    prior, refit, last = found.history
+    wide = tuple(estimate(e.name, e.value, 5.0 if e.name == "d" else 0.0) for e in refit.estimates)
+    assert re.findall(r"had pushed (.+?) to", page(found)) == ["d"]
+    assert "had pushed" not in page(replace(found, history=(prior, replace(refit, estimates=wide), last)))
+
+
 def test_the_terminal_gets_verdict_error_and_candidates() -> None:
     first, *lines = text(found_offset()).splitlines()
     assert first.endswith(" toy.offset")
