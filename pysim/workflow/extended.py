@@ -127,6 +127,8 @@ def _limits(found: Diagnosis, parts: SessionParts) -> list[str]:
         texts.append(f"as a match by the thesis' limits: {limits_sentence(last)}".removesuffix("."))
     if not found.complete:
         texts.append("as complete: more than noise is left, and what that is could not be named")
+    elif found.learned:
+        texts.append("as an explanation: nothing but noise is left, but what causes the learned law has no name")
     for group in found.ties:
         texts.append(f"as proof of the effect's kind: these data cannot tell {', '.join(group)} apart")
     for direction in last.undetermined if last is not None else ():

@@ -42,11 +42,11 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
         return f"Nothing is missing: the refitted model explains the measurements. {_left(diagnosis)}"
     if diagnosis.verdict == UNKNOWN:
         tried = "No effect that was tried explains it." if diagnosis.rivals else "No effect was tried."
-        whole = diagnosis.complete and diagnosis.learned
-        return " ".join([*(laws or ["Something is missing."]), tried, (_rest if whole else _left)(diagnosis)])
+        return " ".join([*(laws or ["Something is missing."]), tried, _left(diagnosis)])
     names = [_named(one) for one in diagnosis.effects]
     count = "an effect" if len(names) == 1 else f"{len(names)} effects"
-    more = [_rest(diagnosis)] if diagnosis.complete else ["More is missing than that.", *laws, _left(diagnosis)]
+    whole = diagnosis.complete and not diagnosis.learned
+    more = [_rest(diagnosis)] if whole else ["More is missing than that.", *laws, _left(diagnosis)]
     lacks = f"The model lacks {count}: {listed(names)}." if diagnosis.rivals else _asked(diagnosis)
     return " ".join(filter(None, [lacks, _tie(diagnosis), _fall(diagnosis), *more]))
 

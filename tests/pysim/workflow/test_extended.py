@@ -29,6 +29,7 @@ from pysim.workflow import (
     write_extended,
 )
 from pysim.workflow.extended import extended_name
+from tests.pysim.diagnosis_answer import LAW
 from tests.toy import CATALOGUE, library, measured
 
 NAME = "MassWithRubbing"
@@ -162,6 +163,20 @@ def test_the_header_tells_when_not_to_trust_it(found: Diagnosis, tmp_path: Path)
     weak += [(whole_answer(failing, one), one) for one in (pump, given())]  # its limits are for its pump alone
     limits = [sum(line.startswith("- ") for line in head(*one, tmp_path).splitlines()) for one in weak]
     assert limits == [limits[0], *[limits[0] + 1] * 4, limits[0]]
+
+
+def test_more_is_left_where_more_is_left_and_not_where_a_learned_law_leaves_noise(
+    found: Diagnosis, tmp_path: Path
+) -> None:
+    whole, partly, with_law, with_more = (
+        {line for line in head(replace(found, learned=laws, complete=complete), given(), tmp_path).splitlines()}
+        for laws in ((), (LAW,))
+        for complete in (True, False)
+    )
+    (more,) = partly - whole
+    assert more in with_more
+    assert more not in with_law
+    assert len(with_law) == len(with_more)  # what causes the law is open all the same
 
 
 def test_where_nothing_was_added_the_base_model_has_its_values(found: Diagnosis, tmp_path: Path) -> None:
