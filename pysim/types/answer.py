@@ -246,7 +246,7 @@ class ErrorStep:
         return values
 
     def moves_from(self, before: ErrorStep) -> dict[str, float | None]:
-        """By how many half widths of the difference's 95 percent interval each parameter has moved; None without one."""
+        """By how many half widths of the move's 95 percent interval each parameter has moved; None without one."""
         ends, values = {e.name: e for e in self.estimates}, before.on_the_scale_of(self)
         return {e.name: _moved(e, values[e.name], ends[e.name]) for e in before.estimates if e.name in ends}
 
