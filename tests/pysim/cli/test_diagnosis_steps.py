@@ -83,6 +83,7 @@ def test_add_writes_the_extended_class_and_the_falling_error_in_place_of_an_earl
         "parameters.toml",
         f"{name}.mo",
         f"{name}.fmu",
+        "Toy.mo",
         MARKER,
     }
 
