@@ -29,7 +29,8 @@ def whole_answer(found: Diagnosis, parts: SessionParts, *, place: str = "", comm
 def _conditions(parts: SessionParts, place: str) -> dict[str, str]:
     model = parts.model
     return {
-        "model": f"{parts.model_name}, FMI {model.abilities.fmi}, token {model.token}",
+        "model": parts.model_name,
+        "FMU": f"FMI {model.abilities.fmi}, identifier {model.token}",
         "data set": f"{parts.dataset.name}, {len(parts.dataset.records)} records{f', {place}' if place else ''}",
         "libraries": ", ".join(str(library) for library in parts.libraries) or "the one that comes along",
         "free parameters": ", ".join(parts.free) or "none",
