@@ -15,6 +15,7 @@ from pysim.present.diagnosis import Diagnosed, figures
 from pysim.present.diagnosis.law_words import ABSORBED, formula_text, law_kind, law_sentence
 from pysim.present.diagnosis.words import (
     added_sentence,
+    called,
     comparison_sentence,
     learned_sentence,
     limits_sentence,
@@ -23,7 +24,7 @@ from pysim.present.diagnosis.words import (
     sizes,
     verdict_sentence,
 )
-from pysim.types import Diagnosis, ErrorStep, FoundEffect, Left, NextTest, PlannedTest
+from pysim.types import Diagnosis, Effect, ErrorStep, FoundEffect, Left, NextTest, PlannedTest, Rival
 from tests.pysim.diagnosis_answer import LAW, OFFSET, estimate, found_offset, nothing, step
 
 PLANNED = PlannedTest(True, 0.25, 1.5, 3.0, "mm", 16.0)
@@ -234,6 +235,35 @@ def test_each_table_has_its_own_verdict_with_numbers_and_limits(
         assert verdicts in shown
 
 
+def test_the_error_of_a_sensor_is_said_in_words_wherever_it_stands() -> None:
+    """Effects keep their standard names."""
+    gain = Effect("sensor.gain", "x", "", (replace(OFFSET.parameters[0], name="size"),))
+    rows = (
+        Rival(("sensor.gain logs.x",), 9.0, 0.1, 0.5, True),
+        Rival(("toy.offset", "sensor.delay logs.p"), 9.0, 0.1, 0.1, True),
+    )
+    found = found_offset(
+        effects=(FoundEffect(gain, "x", (estimate("size", 0.4, 0.1, unit="1"),), 0.9),),
+        rivals=rows,
+        ties=(("sensor.gain logs.x", "sensor.offset logs.x"),),
+        history=(
+            *found_offset().history[:2],
+            replace(found_offset().history[2], step="toy.offset + sensor.gain logs.x"),
+        ),
+    )
+    assert called("sensor.gain my data.x", "toy.offset") == "gain of the sensor of x + toy.offset"
+    for shown in (verdict_sentence(found), ranking_sentence(found), page(found), text(found).partition("\n")[2]):
+        assert "of the sensor of x" in shown
+        assert "sensor." not in shown
+    assert "toy.offset + delay of the sensor of p" in page(found)
+
+
+def test_an_effect_without_a_description_leaves_no_dot_behind() -> None:
+    bare = replace(OFFSET, description="")
+    found = found_offset(effects=(FoundEffect(bare, "force", (estimate("F_o", 0.4, 0.05),), 0.9),))
+    assert not re.search(r">\s*\.", page(found))
+
+
 def test_a_model_without_limits_is_not_judged() -> None:
     found = found_offset()
     bare = replace(found, history=tuple(replace(one, criteria={}, passes=True) for one in found.history))
@@ -284,8 +314,8 @@ def test_only_a_parameter_that_both_intervals_do_not_allow_was_pushed() -> None:
     found = found_offset()
     prior, refit, last = found.history
     wide = tuple(estimate(e.name, e.value, 5.0 if e.name == "d" else 0.0) for e in refit.estimates)
-    assert re.findall(r"had pushed (.+?) to", page(found)) == ["d"]
-    assert "had pushed" not in page(replace(found, history=(prior, replace(refit, estimates=wide), last)))
+    assert re.findall(r"wrong about (.+?)\.", page(found)) == ["d"]
+    assert "wrong about" not in page(replace(found, history=(prior, replace(refit, estimates=wide), last)))
 
 
 def test_the_terminal_gets_verdict_error_and_candidates() -> None:
