@@ -1,6 +1,6 @@
 """A mass on a spring and a damper with a slot for a force, effects for it, and measurements with known truth."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from tempfile import mkdtemp
@@ -11,7 +11,8 @@ from fmu_build import build
 from pysim.effects import read_catalogue, variant
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
-from pysim.types import Dataset, Experiment, MeasuredRecord, MeasuredSignal, Model, Record, Signal
+from pysim.types import Dataset, Effect, Experiment, MeasuredRecord, MeasuredSignal, Model, Record, Signal
+from pysim.workflow import Variants
 
 TEXT = """
 package Toy
@@ -113,6 +114,14 @@ def library() -> Path:
     path = Path(mkdtemp(prefix="toy-")) / "Toy.mo"
     path.write_text(TEXT)
     return path
+
+
+def with_term(variants: Variants, text: str, effects: Sequence[Effect] = ()) -> tuple[Model, dict[str, str]]:
+    """The model with these effects, and behind them the effects that a text declares, such as one of `law_class`."""
+    source = Path(mkdtemp(prefix="term-")) / "Term.mo"
+    source.write_text(text)
+    wider = Variants(variants.class_name, (*variants.libraries, source))
+    return wider.build([*effects, *read_catalogue(source)])
 
 
 CATALOGUE = {effect.name: effect for effect in read_catalogue(library())}

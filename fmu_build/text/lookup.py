@@ -3,13 +3,14 @@
 import difflib
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
+from itertools import accumulate
 from pathlib import Path
 
 from fmu_build.text.classes import ClassText
 from fmu_build.text.declarations import CLASS_KINDS, Declaration, Kind, Source
 from fmu_build.text.libraries import check_place, file_of, files_of, package_name, read_file, read_text
 from fmu_build.text.modify import redeclarations
-from fmu_build.text.tokens import TextError, split_name
+from fmu_build.text.tokens import TextError, dotted_name, split_name
 
 
 class Libraries:
@@ -93,6 +94,16 @@ class Libraries:
 
         return self.reached(text, names)
 
+    def named(self, text: ClassText) -> Iterator[ClassText]:
+        """The class, then all that a name in it may mean and the packages around it, and so on from each, each once."""
+
+        def names(here: ClassText) -> Iterator[str]:
+            yield here.full_name.rpartition(".")[0]
+            for at in range(len(here.own_tokens)):
+                yield from accumulate(split_name(dotted_name(here.own_tokens, at)[0]), "{}.{}".format)
+
+        return self.reached(text, names)
+
     def reached(self, text: ClassText, names: Callable[[ClassText], Iterable[str]]) -> Iterator[ClassText]:
         """The class, then those that it names, and those that they name, each once."""
         seen, waiting = set(), [text]
@@ -143,12 +154,8 @@ class Libraries:
 
     def _imported(self, owner: ClassText, name: str) -> ClassText | None:
         for declaration in owner.of_kind(Kind.IMPORT):
-            full_name = declaration.class_name
-            if declaration.name == "*":
-                full_name = f"{full_name}.{name}"
-            elif declaration.name != name:
-                continue
-            found = self._follow(f".{full_name}", owner)
+            behind = {"*": f".{name}", name: ""}.get(declaration.name)
+            found = None if behind is None else self._follow(f".{declaration.class_name}{behind}", owner)
             if found is not None:
                 return found
         return None

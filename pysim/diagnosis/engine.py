@@ -194,12 +194,12 @@ def _answer(
     untouched = [(PRIOR, search.as_it_is()), *([(REFIT, found.base)] if refitted else [])]
     named: Named = [*untouched, *_kept(found, models, final, search)]
     account = _account(session, found, named, search.fine)
-    complete, estimates = account.complete, held_still(final)[0] if refitted else ()
-    wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and not complete)
+    estimates = held_still(final)[0] if refitted else ()
+    wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and not account.complete)
     wanted &= session.build_law is not None
     learning = _learned(session, search, found) if wanted and not final.candidate.has_events else None
     if learning is not None and learning.law is not None:
-        law, complete = learning.law, False  # nobody has named the law's cause yet
+        law = learning.law
         found, named = _with_law(found, named, law)
         account = _account(session, found, named, finest(search.fine, law.fit.simulation))
         estimates = law.of_the_model(account.history[-1].estimates)
@@ -216,7 +216,7 @@ def _answer(
     own += [Note(NoteCode.BEYOND_BOUND, {"effect": name}) for name in sorted(beyond - set(final.names))]
     return Diagnosis(
         effects=verdict.found_effects(found, estimates, session),
-        complete=complete,
+        complete=account.complete,
         left=account.left,
         rivals=verdict.ranking(search.tables),
         ties=verdict.ties(found),
@@ -233,12 +233,12 @@ def _answer(
 
 
 def _with_law(found: Found, models: Named, law: LawFit) -> tuple[Found, Named]:
-    """Result and history with a learned law as the last model, without the effects that the law made needless."""
+    """Result and history with a learned law as the last model, without the effects and doubts that it made needless."""
     kept = set(law.fit.candidate.labels)
     losses = {label: loss for label, loss in found.losses.items() if label in kept}
     beside = [(name, fit) for name, fit in models if kept.issuperset(fit.candidate.labels)]
     floors = found.floors.with_(law.fit)
-    return replace(found, final=law.fit, floors=floors, losses=losses), [*beside, (law.law.label, law.fit)]
+    return replace(found, final=law.fit, floors=floors, losses=losses, more=False), [*beside, (law.law.label, law.fit)]
 
 
 def _learned(session: Session, search: Search, found: Found) -> Learning:

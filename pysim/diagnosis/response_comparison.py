@@ -150,7 +150,7 @@ def _conditions(model: Model, plan: SteppedSine, solver: Solver, about: str) -> 
     """Parameter set, FMU, solver, plan and versions; nothing that changes from one run to the next."""
     return {
         "parameter set": about or "as the FMU holds it",
-        "FMU": f"{model.path.name}, FMI {model.abilities.fmi}, token {model.token}",
+        "FMU": f"{model.path.name}, FMI {model.abilities.fmi}, identifier {model.token}",
         "solver": repr(solver),
         "test": f"rest {plan.rest:g} s, ramp {plan.ramp:g} s, hold {plan.hold:g} s, then the sine",
         "settling": f"{plan.settle_time:g} s of the sine, at least {plan.settle_periods} periods; doubled up to "

@@ -207,8 +207,8 @@ class ErrorStep:
         step: "prior", "refit", or the effects that came in, joined by " + ".
         fit, validate, test: rms residual over the noise floor of logs fitted, used to choose, and held out; None
             where there is no such log.
-        criteria: worst value of each criterion of thesis Tables 1.3 and 1.4, by symbol.
-        passes: whether all of these are within their limits.
+        criteria: worst value of each criterion of thesis Tables 1.3 and 1.4, by symbol; none where they do not hold.
+        passes: whether all of these are within their limits, and every record was simulated.
         cost: of the objective.
         not_simulated: number of records that the model could not be run through.
         estimates, undetermined: parameters of this model; what the data do not determine.
@@ -246,14 +246,16 @@ class ErrorStep:
         return values
 
     def moves_from(self, before: ErrorStep) -> dict[str, float | None]:
-        """By how many half widths of its 95 percent interval here each parameter has moved; None where it has none."""
-        ends = {e.name: e for e in self.estimates}
-        return {name: _moved(value, ends[name]) for name, value in before.on_the_scale_of(self).items() if name in ends}
+        """By how many half widths of the move's 95 percent interval each parameter has moved; None without one."""
+        ends, values = {e.name: e for e in self.estimates}, before.on_the_scale_of(self)
+        return {e.name: _moved(e, values[e.name], ends[e.name]) for e in before.estimates if e.name in ends}
 
 
-def _moved(before: float, after: Estimate) -> float | None:
-    half = (after.interval[1] - after.interval[0]) / 2
-    return abs(after.value - before) / half if after.determined and half > 0 else None
+def _moved(before: Estimate, value: float, after: Estimate) -> float | None:
+    """From a value on the scale of the estimate afterwards; the errors of the two count as independent."""
+    up, scale = int(after.value > value), value / before.value if before.value else 1.0
+    half = float(np.hypot(scale * (before.interval[up] - before.value), after.interval[1 - up] - after.value))
+    return abs(after.value - value) / half if before.determined and after.determined and half > 0 else None
 
 
 @dataclass(frozen=True)
@@ -371,7 +373,7 @@ class Diagnosis:
 
     Args:
         effects: that the data demand, what costs most to leave out first.
-        complete: whether nothing but noise is left after them.
+        complete: whether nothing but noise is left, after the learned laws too.
         left: what is left.
         rivals: what was compared, best first.
         ties: groups of names that the data do not tell apart.

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from pysim.io import write_file
 from pysim.types import BadInput, Effect, Model
-from pysim.workflow.extended import PARAMETERS, classes_beside, extended_name, parameters_text
+from pysim.workflow.extended import PARAMETERS, copied, extended_name, needed, parameters_text
 from pysim.workflow.variants import Variants
 
 
@@ -32,7 +32,7 @@ def export_model(
         folder: made where it is not there.
         fmi, platforms: of the FMU, as `fmu_build.build` says; an FMU of others stays as it is.
     Returns:
-        "modelica", "fmu" and "parameters" -> path; beside them the classes of effects that have a file of their own.
+        "modelica", "fmu" and "parameters" -> path; beside them copies of the user's files that the class needs.
     Raises:
         BadInput: a class that does not compile, or a folder that cannot be written.
     """
@@ -48,7 +48,7 @@ def export_model(
         files |= {"modelica": folder / f"{name}.mo", "fmu": folder / f"{name}.fmu"}
         about = f"{variants.class_name}{' with ' if effects else ''}{', '.join(effect.name for effect in effects)}."
         variants.write(effects, folder, files["fmu"], name, own, about, fmi=fmi, platforms=platforms)
-        files |= {law.stem: law for law in classes_beside(variants, effects, folder)}
+        files |= copied(needed(variants, effects), folder)
     if values:
         files["parameters"] = folder / PARAMETERS
         write_file(files["parameters"], parameters_text(f"Of {files['fmu'].stem}.", values))

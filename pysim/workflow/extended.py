@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -24,7 +23,7 @@ def write_extended(found: Diagnosis, parts: SessionParts, folder: Path) -> dict[
     """Write the fitted values, and the class and its FMU where effects or laws were added; name -> path, none without a
     refit.
 
-    Nothing of the user's files is changed: the class extends theirs. Laws that have a file of their own come along.
+    Nothing of the user's files is changed: the class extends theirs. Copies of those that it needs come along.
 
     Raises:
         BadInput: the folder cannot be written.
@@ -37,11 +36,10 @@ def write_extended(found: Diagnosis, parts: SessionParts, folder: Path) -> dict[
         states, fmu = parts.model.abilities.states, folder / f"{name}.fmu"
         values = {key: value for key, value in {**parts.overrides, **fitted}.items() if key not in states}
         inside = [law for law in found.learned if folder / law_file(law) in variants.libraries]
-        laws = classes_beside(variants, effects, folder)
-        variants.write(
-            effects, folder, fmu, name, values, _comment(found, parts, [folder / f"{name}.mo", *laws], inside)
-        )
-        files = {"modelica": folder / f"{name}.mo", "fmu": fmu, **{law.stem: law for law in laws}}
+        needs = needed(variants, effects)
+        comment = _comment(found, parts, [f"{name}.mo", *(one.name for one in needs)], inside)
+        variants.write(effects, folder, fmu, name, values, comment)
+        files = {"modelica": folder / f"{name}.mo", "fmu": fmu, **copied(needs, folder)}
         about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."
     else:
         set_ = ", ".join(f"{name} = {value!r}" for name, value in parts.overrides.items())
@@ -58,14 +56,24 @@ def write_extended(found: Diagnosis, parts: SessionParts, folder: Path) -> dict[
     return files
 
 
-def classes_beside(variants: Variants, effects: Sequence[Effect], folder: Path) -> list[Path]:
-    """Files of classes that the extended one needs beside the user's libraries, once they lie in the folder too."""
-    own = {effect.class_name for effect in effects}
-    files = {folder / one.name: one for one in variants.libraries if one.is_file() and one.stem in own}
-    for copy, file in files.items():
-        if copy.resolve() != file.resolve():
-            shutil.copyfile(file, copy)
-    return [*files]
+def needed(variants: Variants, effects: Sequence[Effect]) -> list[Path]:
+    """The user's libraries that hold a class which the model or an effect names, or which those name."""
+    from fmu_build.text import Libraries
+    from fmu_build.text.libraries import files_of
+    from pysim.effects import STANDARD_LIBRARY
+
+    libraries = Libraries([one for one in variants.libraries if one != STANDARD_LIBRARY])
+    roots = map(libraries.full, (variants.class_name, *(effect.class_name for effect in effects)))
+    used = {one.source.file for root in roots if root is not None for one in libraries.named(root)}
+    return [one for one in libraries.places if any(file in used for file, _ in files_of(one))]
+
+
+def copied(libraries: Sequence[Path], folder: Path) -> dict[str, Path]:
+    """Name -> where a library that is one file lies in the folder now."""
+    files = {one: folder / one.name for one in libraries if one.is_file()}
+    for one, copy in files.items():
+        write_file(copy, one.read_bytes())
+    return {copy.stem: copy for copy in files.values()}
 
 
 def parameters_text(about: str, values: Mapping[str, float]) -> str:
@@ -84,15 +92,14 @@ def _last(name: str) -> str:
     return name.rpartition(".")[2]
 
 
-def _comment(found: Diagnosis, parts: SessionParts, files: Sequence[Path], laws: Sequence[LearnedLaw]) -> str:
+def _comment(found: Diagnosis, parts: SessionParts, places: Sequence[str], laws: Sequence[LearnedLaw]) -> str:
     """What it is, from which data, and when not to trust it.
 
     Args:
-        files: of the class, and of those that come along.
+        places: file of the class, and names of the libraries that it needs.
         laws: learned ones that are in it.
     """
-    name, inside = files[0].stem, {law.slot for law in laws}
-    places = list(dict.fromkeys(one.name for one in (*files, *parts.libraries)))
+    name, inside = Path(places[0]).stem, {law.slot for law in laws}
     build = quoted(["fmu-build", name, *(word for one in places for word in ("--library", one))])
     added = [one.effect.name for one in found.effects]
     added += [f"a learned law at {law.slot} over {law.argument}" for law in laws]
@@ -123,10 +130,12 @@ def _limits(found: Diagnosis, parts: SessionParts) -> list[str]:
     if not any(record.held_out for record in parts.dataset.records):
         texts.append("for other excitation without a test: every record was fitted")
     last = found.history[-1] if found.history else None
-    if last is not None and not last.passes and parts.inside.is_thesis_pump:
+    if last is not None and last.criteria and not last.passes:
         texts.append(f"as a match by the thesis' limits: {limits_sentence(last)}".removesuffix("."))
     if not found.complete:
         texts.append("as complete: more than noise is left, and what that is could not be named")
+    elif found.learned:
+        texts.append("as an explanation: nothing but noise is left, but what causes the learned law has no name")
     for group in found.ties:
         texts.append(f"as proof of the effect's kind: these data cannot tell {', '.join(group)} apart")
     for direction in last.undetermined if last is not None else ():

@@ -52,20 +52,6 @@ class Variants:
                 self._built[key] = self.write(effects, Path(folder), None)
         return self._built[key]
 
-    def build_term(self, text: str, effects: Sequence[Effect] = ()) -> tuple[Model, dict[str, str]]:
-        """The model with these effects, and behind them the effects that a text declares, such as one of `law_class`.
-
-        Raises:
-            BadInput: a class that cannot be made or does not compile.
-        """
-        from pysim.effects import read_catalogue
-
-        with TemporaryDirectory(prefix="pysim-term-") as folder:
-            source = Path(folder) / "Term.mo"
-            source.write_text(text, encoding="utf-8")
-            wider = Variants(self.class_name, (*self.libraries, source))
-            return wider.build([*effects, *read_catalogue(source)])
-
     def write(
         self,
         effects: Sequence[Effect],

@@ -13,7 +13,7 @@ from pysim.app.live import live
 from pysim.app.pages.common import busy, ended, nothing, played, start_button
 from pysim.app.pages.moving import moving
 from pysim.app.parts import box, button, card, curve, head, text
-from pysim.present.diagnosis.words import share_text
+from pysim.present.diagnosis.words import called, share_text
 
 
 def candidates_page(desk: Desk) -> None:
@@ -64,7 +64,7 @@ def _rows(answer: Answer | None) -> list[Mapping[str, Any]]:
 def best_of(answer: Answer) -> str:
     """The candidate that improves the fit most, or that none does."""
     first = next(iter(_rows(answer)), None)
-    return str(first["effect"]) if first is not None and (first["score"] or 0.0) > 0 else "none gains"
+    return called(str(first["effect"])) if first is not None and (first["score"] or 0.0) > 0 else "none gains"
 
 
 def _verdict(answer: Answer) -> None:
@@ -90,7 +90,7 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
         text("span", str(rank) if gains else "·", "rank")
         curve(known and known["sketch"])
         with box("tight"):
-            _named(known or {"name": name}, tied=tied)
+            _named(known or {"name": name, "about": called(name)}, tied=tied)
         _gain(row, top)
         _trying(desk, name)
 

@@ -56,7 +56,7 @@ def commands(desk: Desk) -> str:
 
 
 def classes(files: Mapping[str, str]) -> list[str]:
-    """Where the extended class is, and all that it needs beside the user's libraries."""
+    """Where the extended class is, and the files that it needs."""
     return sorted((one for one in files.values() if one.endswith(".mo")), key=lambda one: one != files.get("modelica"))
 
 

@@ -14,8 +14,10 @@ from pysim.present.diagnosis.law_words import ABSORBED, formula_text, law_kind
 from pysim.present.diagnosis.words import (
     QUESTIONS,
     UNIT,
+    called,
     candidates_shown,
     errors,
+    found_name,
     limits_words,
     next_test_sentence,
     share_text,
@@ -78,7 +80,7 @@ def answered(
 def text(result: Diagnosed) -> str:
     """The answer, then sizes, error by step, fit by signal, candidates, laws, what is open, and notes."""
     found = result.found
-    verdict = [f"Verdict: {found.verdict}", *_indented(verdict_sentence(found), "  ")]
+    verdict = [f"Verdict: {found.verdict}", *wrapped(verdict_sentence(found), "  ", "  ")]
     head = "\n".join(wrapped(result.answer) if result.answer else verdict)
     parts = (_effects, _history, _signals, _candidates, _detectable, _laws, _open)
     return "\n\n".join([head, *filter(None, ("\n".join(part(found)) for part in parts))])
@@ -121,16 +123,11 @@ def relative_files(files: Mapping[str, Path], folder: Path) -> dict[str, str]:
     return {name: Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix() for name, path in files.items()}
 
 
-def _indented(text: str, first: str = "") -> list[str]:
-    return wrapped(text, first, "  ")
-
-
 def _effects(diagnosis: Diagnosis) -> Iterator[str]:
     if diagnosis.effects:
         yield "Effects, what costs most to leave out first"
     for one in diagnosis.effects:
-        share = "" if one.share is None else f"  {share_text(one.share)} of the misfit"
-        yield f"  {one.effect.name}{'' if one.effect.class_name else f' at {one.place}'}{share}"
+        yield f"  {found_name(one)}{'' if one.share is None else f'  {share_text(one.share)} of the misfit'}"
         for name, value, (low, high), unit in sizes(one):
             yield f"    {name} = {value:.4g}{'' if unit == '1' else f' {unit}'}, 95 % from {low:.4g} to {high:.4g}"
 
@@ -140,7 +137,7 @@ def _history(diagnosis: Diagnosis) -> Iterator[str]:
         yield f"Residual by step, in {UNIT} (1: noise alone)"
     for step in diagnosis.history:
         numbers = "".join(f"  {use} {size_text(value):>7}" for use, value in errors(step).items())
-        yield f"  {step_name(step.step):<20}{numbers}  {limits_words(step)}"
+        yield f"  {step_name(step.step):<20}{numbers}  {limits_words(step)}".rstrip()
 
 
 def _signals(diagnosis: Diagnosis) -> Iterator[str]:
@@ -155,13 +152,12 @@ def _signals(diagnosis: Diagnosis) -> Iterator[str]:
 def _candidates(diagnosis: Diagnosis) -> Iterator[str]:
     rows = candidates_shown(diagnosis)
     rows = [*[r for r in rows if len(r.effects) == 1][:_ROWS], *[r for r in rows if len(r.effects) > 1][:_ROWS]]
-    names = [" + ".join(row.effects) for row in rows]
+    names = [called(*row.effects) for row in rows]
     width = max([24, *map(len, names)])
     if names:
         yield f"{'Candidates':<{width + 2}}  explains  gain less penalty (nats)"
     for name, row in zip(names, rows, strict=True):
-        how = "" if row.refitted else "  estimated"
-        yield f"  {name:<{width}}  {100 * row.explained:6.1f} %  {row.score:10.4g}{how}"
+        yield f"  {name:<{width}}  {100 * row.explained:6.1f} %  {row.score:10.4g}{'  estimated' * (not row.refitted)}"
 
 
 def _detectable(diagnosis: Diagnosis) -> Iterator[str]:
@@ -199,8 +195,8 @@ def _curve(law: LearnedLaw) -> Iterator[str]:
 
 def _open(diagnosis: Diagnosis) -> Iterator[str]:
     for group in diagnosis.ties:
-        yield from _indented(f"These data cannot tell apart: {listed(group)}.")
+        yield from wrapped(f"These data cannot tell apart: {listed([*map(called, group)])}.", "", "  ")
     if diagnosis.next_test is not None:
-        yield from _indented(f"Next test: {next_test_sentence(diagnosis.next_test)}")
+        yield from wrapped(f"Next test: {next_test_sentence(diagnosis.next_test)}", "", "  ")
     for text in sentences(diagnosis.notes):
-        yield from _indented(f"Note: {text}")
+        yield from wrapped(f"Note: {text}", "", "  ")

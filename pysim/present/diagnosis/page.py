@@ -11,8 +11,10 @@ from pysim.present.diagnosis.answer import Diagnosed, files
 from pysim.present.diagnosis.law_words import formula_text, law_kind, law_sentence
 from pysim.present.diagnosis.words import (
     BEYOND,
+    called,
     candidates_shown,
     chance_text,
+    found_name,
     limits_words,
     next_test_sentence,
     share_text,
@@ -77,17 +79,17 @@ def page(result: Diagnosed, drawings: Sequence[Drawing], redo: str) -> str:
 def _effects(effects: Sequence[FoundEffect]) -> list[str]:
     if not effects:
         return []
-    parts = [heading("What was added" if len(effects) > 1 else f"What was added: {effects[0].effect.name}")]
+    parts = [heading("What was added" if len(effects) > 1 else f"What was added: {found_name(effects[0])}")]
     rows = []
     for one in effects:
         effect = one.effect
         if effect.class_name:
-            parts.append(paragraph(f"{effect.description}. Class {effect.class_name}, in the slot {effect.slot}."))
+            place = f"Class {effect.class_name}, in the slot {effect.slot}."
+            parts.append(paragraph(". ".join(filter(None, [effect.description, place]))))
         parts += [commands(effect.law)] if effect.law else []
-        share = "" if one.share is None else share_text(one.share)
         for name, value, (low, high), unit in sizes(one):
             texts = [f"{v:.5g}" for v in (value, low, high)]
-            rows.append([effect.name, name, *texts, unit, share])
+            rows.append([found_name(one), name, *texts, unit, "" if one.share is None else share_text(one.share)])
     head = ["effect", "parameter", "value", "95 % from", "to", "unit", "of the misfit"]
     return [*parts, table("Sizes that the measurements give", head, rows, words=[0])]
 
@@ -121,9 +123,10 @@ def _where(diagnosis: Diagnosis) -> str:
     rows = []
     for f in diagnosis.failures[:_WORST]:
         end = after.get((f.record, f.signal, f.region))
-        kind = "beyond" if f.error > BEYOND else ""
         at_the_end = ["" if end is None else size_text(end)] if last else []
-        rows.append([f.record, f.signal, f.region, cell(size_text(f.error), kind), *at_the_end])
+        rows.append(
+            [f.record, f.signal, f.region, cell(size_text(f.error), "beyond" * (f.error > BEYOND)), *at_the_end]
+        )
     head = ["record", "signal", "region", "before" if last else "residual", *(["at the end"] if last else [])]
     return table("Residual over noise, the worst places first", head, rows, words=range(3)) if rows else ""
 
@@ -131,13 +134,13 @@ def _where(diagnosis: Diagnosis) -> str:
 def _candidates(diagnosis: Diagnosis) -> list[str]:
     if not diagnosis.rivals:
         return []
-    texts = [f"These data cannot tell apart: {listed(group)}." for group in diagnosis.ties]
+    texts = [f"These data cannot tell apart: {listed([*map(called, group)])}." for group in diagnosis.ties]
     head = ["effects", "of the misfit", "gain less penalty (nats)", "by chance", "how", "sizes there"]
     rows = []
     for row in candidates_shown(diagnosis):
         sizes_there = ", ".join(f"{name} {value:.4g}" for name, value in row.parameters.items())
         numbers = (share_text(row.explained), f"{row.score:,.1f}", chance_text(row.p_value))
-        rows.append([" + ".join(row.effects), *numbers, "refitted" if row.refitted else "estimated", sizes_there])
+        rows.append([called(*row.effects), *numbers, "refitted" if row.refitted else "estimated", sizes_there])
     caption = "Candidates beside the base model, and what improves a model with effects"
     return [*(paragraph(text, note=True) for text in texts), table(caption, head, rows, words=[0, 5])]
 
@@ -148,17 +151,15 @@ def _parameters(diagnosis: Diagnosis) -> list[str]:
         return []
     moves = {} if last is None else last.moves_from(base)
     biased = [name for name, move in moves.items() if move is not None and move > 1]
-    pushed = f"Without the effect, the fit had pushed {listed(biased)} to wrong values." if biased else ""
+    wrong = f"Without what was added, the fit was wrong about {listed(biased)}." if biased else ""
     ends = {} if last is None else {e.name: e for e in last.estimates}
     open_ = (base if last is None else last).undetermined
     held = {next(iter(d.exponents)) for d in open_}
     rows = [_parameter(e, ends.get(e.name), moves.get(e.name), e.name in held) for e in base.estimates]
     head = ["parameter", "unit", "as it is", "refitted", "95 % from", "to"]
     head += ["at the end", "95 % from", "to", "moved by", ""] if last else [""]
-    caption = "Fitted parameters; moves in half widths of the interval at the end"
-    scale = [direction_words(d) for d in open_]
-    shown = table(caption, head, rows, words=[len(head) - 1])
-    return [paragraph(pushed) if pushed else "", shown, *(paragraph(text) for text in scale)]
+    shown = table("Fitted parameters; moves in half widths of their 95 % intervals", head, rows, words=[len(head) - 1])
+    return [paragraph(wrong) if wrong else "", shown, *(paragraph(direction_words(d)) for d in open_)]
 
 
 def _parameter(before: Estimate, after: Estimate | None, move: float | None, held: bool) -> list[str]:
@@ -171,7 +172,7 @@ def _parameter(before: Estimate, after: Estimate | None, move: float | None, hel
 
 def _history(steps: Sequence[ErrorStep]) -> str:
     shown = [c for c in CRITERIA.values() if any(c.symbol in step.criteria for step in steps)]
-    unseen = any(step.test is not None for step in steps)
+    unseen, judged = any(step.test is not None for step in steps), any(map(limits_words, steps))
     rows = []
     for step in steps:
         values = (step.fit, step.validate, *((step.test,) if unseen else ()))
@@ -180,9 +181,9 @@ def _history(steps: Sequence[ErrorStep]) -> str:
             value = step.criteria.get(criterion.symbol)
             kind = "" if value is None or value <= criterion.limit else "beyond"
             numbers.append(cell("" if value is None else f"{value:.3g}", kind))
-        kind = "" if not (step.criteria or step.not_simulated) else "pass" if step.passes else "fail"
-        rows.append([step_name(step.step), *numbers, cell(limits_words(step), kind)])
+        verdict = cell(limits_words(step), "pass" if step.passes else "fail")
+        rows.append([step_name(step.step), *numbers, *([verdict] if judged else [])])
     head = ["model", *[*USES.values()][: 3 if unseen else 2]]
     head += [f"{c.name} ({c.unit}, limit {c.limit:g})" for c in shown]
-    caption = "Residual over noise (1: noise alone); worst value of each criterion of thesis Tables 1.3 and 1.4"
-    return table(caption, [*head, "limits"], rows, words=[0]) if rows else ""
+    caption = f"Residual over noise (1: noise alone){'; worst value of each criterion' if shown else ''}"
+    return table(caption, [*head, *["limits"] * judged], rows, words=[0]) if rows else ""

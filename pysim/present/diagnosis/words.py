@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
@@ -22,7 +23,17 @@ _UNITS = {"%": "% of full scale", "deg": "degrees"}
 
 def step_name(step: str) -> str:
     """A step of the error history as people call it."""
-    return {PRIOR: "as it is", REFIT: "refitted"}.get(step, f"+ {step}")
+    return {PRIOR: "as it is", REFIT: "refitted"}.get(step, f"+ {called(*step.split(' + '))}")
+
+
+def called(*names: str) -> str:
+    """Effects as people call them, joined: by their standard names, errors of sensors in words."""
+    return " + ".join(re.sub(r"^sensor\.(\w+) .*?([^.]+)$", r"\1 of the sensor of \2", name) for name in names)
+
+
+def found_name(one: FoundEffect) -> str:
+    """The same of an effect that was found."""
+    return one.effect.name if one.effect.class_name else called(f"{one.effect.name} {one.place}")
 
 
 def errors(step: ErrorStep | Left) -> dict[str, float]:
@@ -42,11 +53,11 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
         return f"Nothing is missing: the refitted model explains the measurements. {_left(diagnosis)}"
     if diagnosis.verdict == UNKNOWN:
         tried = "No effect that was tried explains it." if diagnosis.rivals else "No effect was tried."
-        whole = diagnosis.complete and diagnosis.learned
-        return " ".join([*(laws or ["Something is missing."]), tried, (_rest if whole else _left)(diagnosis)])
+        return " ".join([*(laws or ["Something is missing."]), tried, _left(diagnosis)])
     names = [_named(one) for one in diagnosis.effects]
     count = "an effect" if len(names) == 1 else f"{len(names)} effects"
-    more = [_rest(diagnosis)] if diagnosis.complete else ["More is missing than that.", *laws, _left(diagnosis)]
+    whole = diagnosis.complete and not diagnosis.learned
+    more = [_rest(diagnosis)] if whole else ["More is missing than that.", *laws, _left(diagnosis)]
     lacks = f"The model lacks {count}: {listed(names)}." if diagnosis.rivals else _asked(diagnosis)
     return " ".join(filter(None, [lacks, _tie(diagnosis), _fall(diagnosis), *more]))
 
@@ -93,10 +104,12 @@ def comparison_sentence(diagnosis: Diagnosis) -> str:
 
 
 def _step_text(step: ErrorStep) -> str:
-    who = {PRIOR: "As it is, the model", REFIT: "Refitted, it"}.get(step.step, f"With {step.step}, it")
+    who = {PRIOR: "As it is, the model", REFIT: "Refitted, it"}.get(
+        step.step, f"With {called(*step.step.split(' + '))}, it"
+    )
     parts = [f"{size_text(value)} {_on_logs(use)}" for use, value in errors(step).items()]
     left = f"leaves a residual of {listed(parts)}, in {UNIT}" if parts else "is judged by frequency responses alone"
-    return f"{who} {left}. {limits_sentence(step)}"
+    return f"{who} {left}. {limits_sentence(step)}".rstrip()
 
 
 def ranking_sentence(diagnosis: Diagnosis) -> str:
@@ -106,14 +119,14 @@ def ranking_sentence(diagnosis: Diagnosis) -> str:
     count = len({row.effects[-1] for row in diagnosis.rivals})
     if not useful:
         return f"None of {count} candidates improves the fit enough to justify its extra parameters."
-    names = [f"{row.effects[-1]} ({share_text(row.explained)} of the misfit)" for row in useful[:3]]
+    names = [f"{called(row.effects[-1])} ({share_text(row.explained)} of the misfit)" for row in useful[:3]]
     best = ", ".join(names) + ("" if len(useful) <= 3 else ", ...")
     return f"{len(useful)} of {count} candidates improve the fit enough to justify their extra parameters: {best}."
 
 
 def added_sentence(diagnosis: Diagnosis) -> str:
     """What the effects that were asked for do to the error."""
-    return f"{_asked(diagnosis)} {_fall(diagnosis)} {limits_sentence(diagnosis.history[-1])}"
+    return " ".join(filter(None, [_asked(diagnosis), _fall(diagnosis), limits_sentence(diagnosis.history[-1])]))
 
 
 def candidates_shown(diagnosis: Diagnosis) -> list[Rival]:
@@ -140,7 +153,7 @@ QUESTIONS: Mapping[str, tuple[str, Callable[[Diagnosis], str]]] = {
     "compare": ("How far is the model from its measurements?", comparison_sentence),
     "locate": ("Where is what missing?", learned_sentence),
     "rank": ("What would each effect explain?", ranking_sentence),
-    "add": ("What do the effects mend?", added_sentence),
+    "add": ("What does the addition mend?", added_sentence),
 }
 
 
@@ -183,21 +196,21 @@ def limits_sentence(step: ErrorStep) -> str:
         for c in criteria:
             how = "on average" if c.name.startswith("mean") else "at most"
             values.append(f"{_worst(step, c)} {_UNITS.get(c.unit, c.unit)} {how} (limit {c.limit:g})")
-        texts.append(f"{_capital(criteria[0].source)} is {_verdict(step, criteria)}: at worst {listed(values)}.")
+        texts.append(f"The limits of {criteria[0].source} are {_verdict(step, criteria)}: at worst {listed(values)}.")
     largest = max((value for value in (step.fit, step.validate) if value is not None), default=0.0)
     if texts and step.passes and largest > BEYOND:
         texts.append("These limits are wider than the noise: that they are met does not make the model complete.")
     if step.not_simulated:
-        texts.append(f"{_capital(_lost(step))}: how far the model is from what was measured there is not known.")
+        lost = counted(step.not_simulated, "record")
+        texts.append(f"{lost} not simulated: how far the model is from what was measured there is not known.")
     return " ".join(texts)
 
 
 def limits_words(step: ErrorStep) -> str:
     """The same in a few words."""
-    verdicts = [
-        f"{criteria[0].source.removeprefix('thesis ')} {_verdict(step, criteria)}" for criteria in _judging(step)
-    ] or ["no limits"]
-    return ", ".join([*verdicts, *([_lost(step)] if step.not_simulated else [])])
+    lost = [f"{counted(step.not_simulated, 'record')} not simulated"] if step.not_simulated else []
+    verdicts = [f"{own[0].source.removeprefix('thesis ')} {_verdict(step, own)}" for own in _judging(step)]
+    return ", ".join([*verdicts, *lost])
 
 
 def _verdict(step: ErrorStep, criteria: Sequence[Criterion]) -> str:
@@ -205,10 +218,6 @@ def _verdict(step: ErrorStep, criteria: Sequence[Criterion]) -> str:
     if not all(step.criteria[c.symbol] <= c.limit for c in criteria):
         return "not met"
     return "not judged" if step.not_simulated else "met"
-
-
-def _lost(step: ErrorStep) -> str:
-    return f"{counted(step.not_simulated, 'record')} not simulated"
 
 
 def _judging(step: ErrorStep) -> list[list[Criterion]]:
@@ -223,19 +232,16 @@ def _worst(step: ErrorStep, criterion: Criterion) -> str:
     return next((text for text in (f"{value:.3g}", f"{value:.6g}") if float(text) != criterion.limit), f"{value:g}")
 
 
-def _capital(text: str) -> str:
-    return f"{text[0].upper()}{text[1:]}"
-
-
 def _named(one: FoundEffect) -> str:
     """What it is, and its standard name."""
     what = one.effect.description.removesuffix(f"({one.effect.name})").strip()
-    return f"{what[0].lower()}{what[1:]} ({one.effect.name})" if what else f"{one.effect.name} at {one.place}"
+    place = f" at {one.place}" if one.effect.class_name else ""
+    return f"{what[0].lower()}{what[1:]} ({one.effect.name})" if what else f"{found_name(one)}{place}"
 
 
 def _tie(diagnosis: Diagnosis) -> str:
     added = {one.effect.name for one in diagnosis.effects}
-    groups = [[name for name in group if name not in added] for group in diagnosis.ties if added & set(group)]
+    groups = [[called(name) for name in group if name not in added] for group in diagnosis.ties if added & set(group)]
     return " ".join(f"These data cannot tell it from {listed(rest)}." for rest in groups if rest)
 
 

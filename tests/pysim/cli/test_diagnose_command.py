@@ -48,7 +48,9 @@ def test_the_folder_holds_the_extended_model_and_every_file_of_the_answer(diagno
 
 
 def test_the_answer_says_how_to_have_it_again(diagnosed: Ran) -> None:
-    assert " ".join(diagnosed.words) in diagnosed.answer["conditions"]["command"]
+    conditions = diagnosed.answer["conditions"]
+    assert " ".join(diagnosed.words) in conditions["command"]
+    assert conditions["model"] == "Toy.Mass"  # the identifier of its FMU is called one, and stands apart
 
 
 BROKEN = """

@@ -18,6 +18,7 @@ from pysim.present import diagnosis
 from pysim.present.progress import Unfolding
 from pysim.present.report import CHECKPOINT, MARKER
 from pysim.types import FrequencyResponse, MeasuredRecord, Note, NoteCode, ProgressEvent, SineTest
+from pysim.workflow import inside, session
 from tests.pysim.cli.ran import Ran, refused
 from tests.pysim.diagnosis_answer import found_offset
 from tests.toy import measured
@@ -82,6 +83,7 @@ def test_add_writes_the_extended_class_and_the_falling_error_in_place_of_an_earl
         "parameters.toml",
         f"{name}.mo",
         f"{name}.fmu",
+        "Toy.mo",
         MARKER,
     }
 
@@ -93,6 +95,8 @@ def test_compare_tells_how_far_the_model_is_and_where(compared: Ran) -> None:
     assert prior["fit"] > 1.5 * refit["fit"] > 1.5
     assert found["verdict"] == "unknown"
     assert found["where"][0]["error"] > refit["fit"]
+    assert (prior["criteria"], refit["criteria"]) == ({}, {})  # the thesis' limits are for its pump
+    assert "Table 1." not in (compared.output / "report.html").read_text()
     assert {path.name for path in compared.output.iterdir()} == {"report.html", "parameters.toml", MARKER}
 
 
@@ -111,10 +115,14 @@ def test_what_was_fitted_is_compared_as_it_was_found(
     assert {"error.png", "map.png", "record_1.svg"} <= {path.name for path in output.iterdir()}
 
 
-def test_a_model_that_misses_a_limit_is_exit_1(rubbing: Path, toy: list[str], tmp_path: Path) -> None:
-    assert main(["compare", str(rubbing), *toy, "--json", str(tmp_path / "a.json")]) == 1
+@pytest.mark.parametrize("is_pump", [True, False])
+def test_a_pump_that_misses_a_limit_is_exit_1(
+    rubbing: Path, toy: list[str], tmp_path: Path, monkeypatch: pytest.MonkeyPatch, is_pump: bool
+) -> None:
+    monkeypatch.setattr(session, "inside", lambda *given: replace(inside(*given), is_thesis_pump=is_pump))
+    assert main(["compare", str(rubbing), *toy, "--json", str(tmp_path / "a.json")]) == is_pump
     (prior,) = json.loads((tmp_path / "a.json").read_text())["error"]
-    assert (prior["step"], prior["passes"]) == ("prior", False)
+    assert (prior["step"], prior["passes"], bool(prior["criteria"])) == ("prior", not is_pump, is_pump)
 
 
 def test_tables_beside_logs_are_left_out_and_said_to_be(toy: list[str], tmp_path: Path) -> None:

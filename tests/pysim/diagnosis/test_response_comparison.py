@@ -109,7 +109,7 @@ def test_the_result_holds_what_it_takes_to_repeat_it(runs: list[Experiment]) -> 
     )
     assert dict(result.parameters) == {"k": (0.5, "1")}
     assert result.conditions["parameter set"] == "Table 9"
-    assert result.conditions["FMU"] == "linear.fmu, FMI 2, token 0"
+    assert result.conditions["FMU"] == "linear.fmu, FMI 2, identifier 0"
     assert result.conditions["solver"] == repr(Rk4(step=1e-3))
     assert result.conditions["fit"] == "1 whole periods of 24 points"
     assert "0.5 s of the sine" in result.conditions["settling"]

@@ -11,10 +11,11 @@ import numpy as np
 import pytest
 
 from pysim.present import Drawing, data, diagnosis, text
-from pysim.present.diagnosis import Diagnosed
+from pysim.present.diagnosis import Diagnosed, figures
 from pysim.present.diagnosis.law_words import ABSORBED, formula_text, law_kind, law_sentence
 from pysim.present.diagnosis.words import (
     added_sentence,
+    called,
     comparison_sentence,
     learned_sentence,
     limits_sentence,
@@ -23,7 +24,7 @@ from pysim.present.diagnosis.words import (
     sizes,
     verdict_sentence,
 )
-from pysim.types import Diagnosis, ErrorStep, FoundEffect, Left, NextTest, PlannedTest
+from pysim.types import Diagnosis, Effect, ErrorStep, FoundEffect, Left, NextTest, PlannedTest, Rival
 from tests.pysim.diagnosis_answer import LAW, OFFSET, estimate, found_offset, nothing, step
 
 PLANNED = PlannedTest(True, 0.25, 1.5, 3.0, "mm", 16.0)
@@ -216,7 +217,6 @@ def test_a_formula_has_its_unit_and_its_factor(given: tuple[str, str, str], whol
             "Table 1.3 not met, Table 1.4 met",
             [0.2, 0.5, 35.001, 35, 3.4, 10],
         ),
-        ({}, True, 0, "no limits", []),
         (
             {"E_M mean": 0.2, "E_t max": 30.0},
             False,
@@ -233,6 +233,43 @@ def test_each_table_has_its_own_verdict_with_numbers_and_limits(
     assert numbers(limits_sentence(one)) == told
     for shown in (text(found_offset(history=(one,))), page(found_offset(history=(one,)))):
         assert verdicts in shown
+
+
+def test_the_error_of_a_sensor_is_said_in_words_wherever_it_stands() -> None:
+    """Effects keep their standard names."""
+    gain = Effect("sensor.gain", "x", "", (replace(OFFSET.parameters[0], name="size"),))
+    rows = (
+        Rival(("sensor.gain logs.x",), 9.0, 0.1, 0.5, True),
+        Rival(("toy.offset", "sensor.delay logs.p"), 9.0, 0.1, 0.1, True),
+    )
+    found = found_offset(
+        effects=(FoundEffect(gain, "x", (estimate("size", 0.4, 0.1, unit="1"),), 0.9),),
+        rivals=rows,
+        ties=(("sensor.gain logs.x", "sensor.offset logs.x"),),
+        history=(
+            *found_offset().history[:2],
+            replace(found_offset().history[2], step="toy.offset + sensor.gain logs.x"),
+        ),
+    )
+    assert called("sensor.gain my data.x", "toy.offset") == "gain of the sensor of x + toy.offset"
+    for shown in (verdict_sentence(found), ranking_sentence(found), page(found), text(found).partition("\n")[2]):
+        assert "of the sensor of x" in shown
+        assert "sensor." not in shown
+    assert "toy.offset + delay of the sensor of p" in page(found)
+
+
+def test_an_effect_without_a_description_leaves_no_dot_behind() -> None:
+    bare = replace(OFFSET, description="")
+    found = found_offset(effects=(FoundEffect(bare, "force", (estimate("F_o", 0.4, 0.05),), 0.9),))
+    assert not re.search(r">\s*\.", page(found))
+
+
+def test_a_model_without_limits_is_not_judged() -> None:
+    found = found_offset()
+    bare = replace(found, history=tuple(replace(one, criteria={}, passes=True) for one in found.history))
+    for judge in (text, page, added_sentence, comparison_sentence, lambda one: next(figures(Diagnosed(one))).caption):
+        assert re.search(r"Tables? 1\.", judge(found))
+        assert not re.search(r"thesis|Tables? 1\.|limits?\b", judge(bare), re.IGNORECASE)
 
 
 def test_json_has_each_sentence_beside_its_numbers() -> None:
@@ -270,6 +307,15 @@ def test_the_page_needs_nothing_else_and_has_no_empty_sections() -> None:
     assert not re.search(r'(?:src|href)="(?!data:)', whole)
     less = page(replace(nothing(), notes=()))
     assert less.count("<h2>") < whole.count("<h2>") - 3
+
+
+def test_only_a_parameter_that_both_intervals_do_not_allow_was_pushed() -> None:
+    """The damping's fall is beyond both intervals; the same fall within the earlier one proves nothing."""
+    found = found_offset()
+    prior, refit, last = found.history
+    wide = tuple(estimate(e.name, e.value, 5.0 if e.name == "d" else 0.0) for e in refit.estimates)
+    assert re.findall(r"wrong about (.+?)\.", page(found)) == ["d"]
+    assert "wrong about" not in page(replace(found, history=(prior, replace(refit, estimates=wide), last)))
 
 
 def test_the_terminal_gets_verdict_error_and_candidates() -> None:

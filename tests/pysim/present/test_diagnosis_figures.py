@@ -170,7 +170,7 @@ def test_parameters_show_which_were_biased_once_the_scale_is_the_same() -> None:
     found = found_offset()
     figure = parameters_figure(found.history[1], found.history[2])
     left, right = figure.axes
-    assert texts(right) == ["held, sets the scale", "0.0", "5.0"]  # k went from 3 to 0.75 as m from 2 to 1; d by 0.5
+    assert texts(right) == ["held, sets the scale", "0.0", "2.2"]  # k went from 3 to 0.75 as m from 2 to 1; d by 0.5
     assert [label.get_text() for label in left.get_yticklabels()] == ["m (N)", "k (N)", "d (N)"]
     assert len(parameters_figure(found.history[1], None).axes) == 1
     with pytest.raises(BadInput, match="no estimates"):

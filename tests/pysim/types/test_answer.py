@@ -1,6 +1,7 @@
 """The answer as numbers and codes: what its verdict says, what cannot be, and its keys as JSON."""
 
 import json
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -17,7 +18,7 @@ from pysim.types import (
     NoteCode,
     answer_data,
 )
-from tests.pysim.diagnosis_answer import LAW, found_offset, nothing
+from tests.pysim.diagnosis_answer import LAW, estimate, found_offset, nothing
 
 # Fixed by the contract of `--json`; `reason`, and the text of a note, are words and come from `pysim.present`.
 KEYS = {
@@ -54,15 +55,29 @@ def test_an_answer_does_not_change() -> None:
     assert Diagnosis((), True, Left({}, None, None), (), (), (), ()).seconds == {}
 
 
-def test_moves_are_counted_on_one_scale_in_half_widths_of_the_interval_afterwards() -> None:
+def test_moves_are_counted_on_one_scale_in_half_widths_of_the_interval_of_the_difference() -> None:
     _, before, after = found_offset().history
     scaled = before.on_the_scale_of(after)
     assert scaled == pytest.approx({"m": 1.0, "k": 0.75, "d": 1.0})  # m halved, so k by the square of that
     moves = after.moves_from(before)
     assert moves["m"] is None  # held
     assert moves["k"] == pytest.approx(0.0, abs=1e-12)
-    assert moves["d"] == pytest.approx(5.0)
+    assert moves["d"] == pytest.approx(0.5 / math.hypot(0.2, 0.1))
     assert "F_o" not in moves
+
+
+def test_what_either_interval_allows_is_no_move() -> None:
+    """Of a cylinder fitted without the friction of its seal and with it; the sides of an interval are not alike."""
+    before = {"d": (8413.0, (8219.0, 8613.0)), "V0": (1.159e-4, (5e-5, 3.907e-4)), "E": (3.33e8, (3e8, 9.51e8))}
+    after = {"d": (2603.0, (2591.0, 2616.0)), "V0": (3.581e-4, (3.465e-4, 3.701e-4)), "E": (8.955e8, (8.68e8, 9.24e8))}
+    steps = []
+    for fitted in (before, after):
+        own = [replace(estimate(name, value, 1.0), interval=ends) for name, (value, ends) in fitted.items()]
+        steps.append(replace(found_offset().history[0], estimates=tuple(own)))
+    moves = {name: move or 0.0 for name, move in steps[1].moves_from(steps[0]).items()}
+    assert {name for name, move in moves.items() if move > 1} == {"d"}
+    open_ = replace(steps[0], estimates=tuple(replace(one, std=math.inf) for one in steps[0].estimates))
+    assert set(steps[1].moves_from(open_).values()) == {None}  # nothing was known of it
 
 
 def test_json_has_the_keys_of_the_contract_and_finite_numbers() -> None:

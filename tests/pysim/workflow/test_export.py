@@ -28,6 +28,7 @@ def test_values_are_part_of_the_class_that_is_written(tmp_path: Path) -> None:
     files = export_model(MASS, VARIANTS, [CATALOGUE["toy.friction"]], values, tmp_path / "better", fmi=3)
     assert {name: path.name for name, path in files.items()} == {
         "modelica": "MassWithRubbing.mo", "fmu": "MassWithRubbing.fmu", "parameters": "parameters.toml",
+        library().stem: library().name,
     }  # fmt: skip
     written = read_model(files["fmu"])
     with_effect, _ = VARIANTS.build([CATALOGUE["toy.friction"]])

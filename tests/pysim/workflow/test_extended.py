@@ -25,9 +25,11 @@ from pysim.workflow import (
     model_of,
     session_of,
     session_parts,
+    whole_answer,
     write_extended,
 )
-from pysim.workflow.extended import extended_name
+from pysim.workflow.extended import copied, extended_name, needed
+from tests.pysim.diagnosis_answer import LAW
 from tests.toy import CATALOGUE, library, measured
 
 NAME = "MassWithRubbing"
@@ -82,7 +84,7 @@ def written(found: Diagnosis, tmp_path_factory: pytest.TempPathFactory) -> dict[
 
 
 def test_the_class_and_its_fmu_hold_the_fitted_values(found: Diagnosis, written: dict[str, Path]) -> None:
-    assert {path.name for path in written.values()} == {f"{NAME}.mo", f"{NAME}.fmu", "parameters.toml"}
+    assert {path.name for path in written.values()} == {f"{NAME}.mo", f"{NAME}.fmu", "parameters.toml", library().name}
     text = written["modelica"].read_text()
     assert "extends Toy.Mass(" in text
     assert "redeclare Toy.Rubbing force(F_c=0.4" in text
@@ -99,9 +101,9 @@ def command(file: Path) -> list[str]:
     return shlex.split(line.partition(" by: ")[2])
 
 
-def compiled_elsewhere(files: Mapping[str, Path], libraries: Sequence[Path], folder: Path) -> Model:
-    """What becomes of the files and the user's libraries in another folder, by the command of the header."""
-    for one in (*files.values(), *libraries):
+def compiled_elsewhere(files: Mapping[str, Path], folder: Path) -> Model:
+    """What becomes of the files alone in another folder, by the command of the header."""
+    for one in files.values():
         shutil.copy(one, folder)
     program, *words = command(files["modelica"])
     assert program == "fmu-build"
@@ -115,7 +117,7 @@ def compiled_elsewhere(files: Mapping[str, Path], libraries: Sequence[Path], fol
 def test_the_command_in_the_header_works_where_the_files_lie(
     found: Diagnosis, written: dict[str, Path], tmp_path: Path
 ) -> None:
-    model = compiled_elsewhere({**written, "fmu": written["modelica"]}, [library()], tmp_path)
+    model = compiled_elsewhere({**written, "fmu": written["modelica"]}, tmp_path)
     fitted = {e.name: e.value for e in found.estimates}
     assert {n: model[n].start for n in fitted} == pytest.approx(fitted, rel=1e-12)
     assert str(written["modelica"].parents[1]) not in written["modelica"].read_text()
@@ -137,7 +139,27 @@ def test_a_law_that_was_typed_comes_along_with_the_class(tmp_path: Path) -> None
     assert files["MyDrag"].read_text() == law.read_text()
     elsewhere = tmp_path / "elsewhere"
     elsewhere.mkdir()
-    assert compiled_elsewhere(files, [library()], elsewhere)["force.F_c"].start == pytest.approx(0.4, rel=0.05)
+    assert compiled_elsewhere(files, elsewhere)["force.F_c"].start == pytest.approx(0.4, rel=0.05)
+
+
+def test_what_the_class_does_not_use_is_neither_named_nor_copied(tmp_path: Path) -> None:
+    """A class is used where it is extended or a part, and where a constant or a function of it is."""
+    texts = {
+        "Plant": 'model Plant "Not of Spare" extends Base; Part part(k=Lib.k); equation x = f(part.y); end Plant;',
+        "Base": "partial model Base output Real x; end Base;",
+        "Part": "model Part parameter Real k = 1; Real y = k; end Part;",
+        "Lib": "package Lib constant Real k = 2; end Lib;",
+        "f": "function f input Real u; output Real y; algorithm y := u; end f;",
+        "Spare": "model Spare extends Base; end Spare;",
+        "Slip": "model Slip extends",
+    }
+    for name, text in texts.items():
+        (tmp_path / f"{name}.mo").write_text(text)
+    found = needed(Variants("Plant", tuple(sorted(tmp_path.glob("*.mo")))), [])
+    assert {one.stem for one in found} == {"Plant", "Base", "Part", "Lib", "f"}
+    folder = tmp_path / "beside"
+    folder.mkdir()
+    assert {*copied(found, folder).values()} == {*folder.iterdir()} == {folder / one.name for one in found}
 
 
 def test_an_effect_that_the_logs_do_not_ask_for_has_no_share_of_the_misfit(found: Diagnosis) -> None:
@@ -158,9 +180,23 @@ def test_the_header_tells_when_not_to_trust_it(found: Diagnosis, tmp_path: Path)
     ]
     failing = replace(found, history=(replace(found.history[-1], passes=False),))
     pump = replace(given(), inside=replace(given().inside, is_thesis_pump=True))
-    weak += [(failing, pump), (failing, given())]  # its limits are for its pump alone
+    weak += [(whole_answer(failing, one), one) for one in (pump, given())]  # its limits are for its pump alone
     limits = [sum(line.startswith("- ") for line in head(*one, tmp_path).splitlines()) for one in weak]
     assert limits == [limits[0], *[limits[0] + 1] * 4, limits[0]]
+
+
+def test_more_is_left_where_more_is_left_and_not_where_a_learned_law_leaves_noise(
+    found: Diagnosis, tmp_path: Path
+) -> None:
+    whole, partly, with_law, with_more = (
+        set(head(replace(found, learned=laws, complete=complete), given(), tmp_path).splitlines())
+        for laws in ((), (LAW,))
+        for complete in (True, False)
+    )
+    (more,) = partly - whole
+    assert more in with_more
+    assert more not in with_law
+    assert len(with_law) == len(with_more)  # what causes the law is open all the same
 
 
 def test_where_nothing_was_added_the_base_model_has_its_values(found: Diagnosis, tmp_path: Path) -> None:

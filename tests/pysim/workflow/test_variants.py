@@ -10,7 +10,7 @@ from fmu_build.pack import CompilerError
 from pysim.effects import law_class
 from pysim.types import BadInput, EffectParameter
 from pysim.workflow import Variants
-from tests.toy import CATALOGUE, library
+from tests.toy import CATALOGUE, library, with_term
 
 LAW = SimpleNamespace(slot="force", text="", probes=())
 
@@ -47,8 +47,8 @@ def test_a_law_stands_in_its_slot_behind_the_effects_that_are_there() -> None:
     (force,) = variants.slots
     k_3 = EffectParameter("k_3", "N/m3", 0.0, 100.0, 5.0, 0.0, 0.0)
     text = law_class("Cubic", force, "-k_3*x^3", [k_3], [library()], effect="own.cubic")
-    model, places = variants.build_term(text, [CATALOGUE["toy.friction"]])
+    model, places = with_term(variants, text, [CATALOGUE["toy.friction"]])
     assert places == {"toy.friction": "force.first", "own.cubic": "force.second"}
     assert (model["force.second.k_3"].max, model["force.first.F_c"].unit) == (100.0, "N")
     with pytest.raises(BadInput, match="nowhere"):
-        variants.build_term(text.replace("-k_3*x^3", "-k_3*nowhere"))
+        with_term(variants, text.replace("-k_3*x^3", "-k_3*nowhere"))

@@ -39,10 +39,10 @@ def figures(result: Diagnosed) -> Iterator[Picture]:
     """Those for which there is something to show, each with the section of the page it stands in."""
     found, dataset = result.found, result.dataset
     if found.history:
-        caption = (
-            "The error, step by step: root-mean-square residual over noise; below, the worst value of each criterion "
-            "of thesis Tables 1.3 and 1.4."
+        below = "; below, the worst value of each criterion of thesis Tables 1.3 and 1.4" * bool(
+            found.history[-1].criteria
         )
+        caption = f"The error, step by step: root-mean-square residual over noise{below}."
         yield Picture("error", caption, error_figure(found.history), "error")
     for k, law in enumerate(found.laws[:_PLACES]):
         if law.knots.size > 1:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from pysim.present import style
-from pysim.present.diagnosis.words import candidates_shown
+from pysim.present.diagnosis.words import called, candidates_shown
 from pysim.types import BadInput, Diagnosis, Rival
 
 if TYPE_CHECKING:
@@ -31,13 +31,11 @@ def candidates_figure(diagnosis: Diagnosis) -> Figure:
     axes.grid(False, axis="y")
     for i, row in enumerate(rows):
         last = row.effects[-1]
-        _bar(
-            axes, i, row, style.COLOURS[4] if last in tied else style.COLOURS[0] if last in added else style.COLOURS[5]
-        )
+        _bar(axes, i, row, style.COLOURS[4 if last in tied else 0 if last in added else 5])
     axes.set_xlim(0, 120)
     axes.set_xticks(range(0, 101, 20))
     axes.set_ylim(len(rows) - 0.4, -0.6)
-    axes.set_yticks(range(len(rows)), [" + ".join(row.effects) for row in rows], fontsize=style.SMALL)
+    axes.set_yticks(range(len(rows)), [called(*row.effects) for row in rows], fontsize=style.SMALL)
     axes.set_xlabel("Explains of the misfit of the model it joins (%)")
     from matplotlib.patches import Patch
 

@@ -61,7 +61,7 @@ def _moves(axes: Axes, rows: Sequence[Estimate], moves: dict[str, float | None],
             axes.barh(i, move - _LEAST, left=_LEAST, height=0.56, color=style.COLOURS[0] if move > 1 else style.LIMIT)
         text = f"{move:.1f}" if move < 100 else f"{move:,.0f}"
         style.small_text(axes, text, (max(move, _LEAST), i), (4, 0), va="center")
-    axes.set_xlabel("Moved by (half widths of its interval)")
+    axes.set_xlabel("Moved by (half widths of its 95 % interval)")
 
 
 def _along(estimate: Estimate, values: dict[str, float]) -> tuple[float, float]:

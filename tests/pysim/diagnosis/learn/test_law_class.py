@@ -23,6 +23,7 @@ from pysim.types import BadInput, Experiment, Model, Signal
 from pysim.types.answer import LearnedLaw
 from pysim.workflow import Variants
 from pysim.workflow.learned import keep_law
+from tests.toy import with_term
 
 Array = NDArray[np.float64]
 LAB = """package Lab
@@ -87,7 +88,7 @@ def learned(slot: str, factor: str, argument: str, reach: float, unit_in: str, u
 def with_law(lab: Sequence[Path], model: str, law: LearnedLaw, **more: Any) -> Model:
     slot = next(one for one in slots(f"Lab.{model}", lab) if one.name == law.slot)
     text = law_class(law, slot, "Own", lab, effect="learned.own")
-    return Variants(f"Lab.{model}", tuple(lab)).build_term(text, **more)[0]
+    return with_term(Variants(f"Lab.{model}", tuple(lab)), text, **more)[0]
 
 
 def curve(law: LearnedLaw, z: float) -> float:
@@ -232,7 +233,7 @@ def test_a_formula_is_handed_on_with_its_rate(lab: tuple[Path, ...]) -> None:
     assert formula.shapes == ("smooth sign",)
     slot = next(one for one in slots("Lab.Signals", lab) if one.name == "link")
     text = law_class(law, slot, "Own", lab, effect="learned.own", formula=formula)
-    y, y_t = outputs(Variants("Lab.Signals", lab).build_term(text)[0], "y", "y_t")
+    y, y_t = outputs(with_term(Variants("Lab.Signals", lab), text)[0], "y", "y_t")
     s = np.sin(3 * TIME)
     assert y == pytest.approx(s + 0.3 * np.tanh(s / 0.4), abs=0.01)
     assert np.cumsum(y_t[:-1] + np.diff(y_t) / 2) * 0.01 == pytest.approx(y[1:] - y[0], abs=5e-3)
