@@ -226,7 +226,7 @@ class Desk:
     async def add_law(self, name: str, place: LawPlace, law: str, ranges: Mapping[str, Range]) -> None:
         """Make a law an effect of the project, and try it beside those that the model has.
 
-        One of that name is changed, and what was found with it as it was is removed.
+        One of that name is changed, and what was found with it as it was is removed, what tried it too.
         """
         self._free_to_change()
         content = effect_class(name, place.slot, law, ranges, place.libraries)
@@ -234,7 +234,7 @@ class Desk:
         if file.is_file() and file.read_text(encoding="utf-8") != content:
             self.runner.worker.end()  # it keeps the class
             for job in map(read_job, (self.project.folder / "results").glob("*")):
-                if job is not None and name in job.work.effects:
+                if job is not None and (name in job.work.effects or job.work.kind in ("rank", "diagnose")):
                     remove(self.project.results(job.work.name), self.project.uploads)
             self.project.change(added=tuple(one for one in self.project.settings().added if one != name))
             self.history.begin_anew()
