@@ -8,7 +8,7 @@ import json
 import time
 from collections.abc import Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -140,8 +140,8 @@ def read_job(folder: Path) -> Job | None:
     """Where the work of a folder stands, as it was written last; None where none was begun."""
     try:
         head = json.loads((folder / _JOB).read_text(encoding="utf-8"))
-        words, effects = tuple(head["work"]["words"]), tuple(head["work"]["effects"])
-        work = Work(head["work"]["name"], head["work"]["title"], words, effects)
+        own = head["work"]
+        work = Work(own["name"], own["title"], tuple(own["words"]), tuple(own["effects"]))
         job = Job(work, head["state"], head["begun"], head["ended"], head["fingerprint"], message=head["message"])
         process = head.get("process")
         job = replace(job, process=process and Started(int(process["pid"]), float(process["began"])))
@@ -152,10 +152,7 @@ def read_job(folder: Path) -> Job | None:
 
 def _write_job(job: Job, folder: Path) -> None:
     """But for what its events say."""
-    work = {"name": job.work.name, "title": job.work.title, "words": job.work.words, "effects": job.work.effects}
-    head = {"work": work, "state": job.state, "begun": job.begun, "ended": job.ended}
-    head |= {"fingerprint": job.fingerprint, "message": job.message}
-    head |= {"process": None if job.process is None else {"pid": job.process.pid, "began": job.process.began}}
+    head = {key: one for key, one in asdict(job).items() if key not in ("stage", "trials", "curves")}
     write_file(folder / _JOB, json.dumps(head, indent=1) + "\n")
 
 
