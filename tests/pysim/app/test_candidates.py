@@ -82,6 +82,10 @@ def test_its_numbers_are_to_be_seen_on_a_narrow_screen(width: int, shown: Shown,
         assert place["x"] + place["width"] <= width
         assert place["y"] >= name["y"] + name["height"]
     tab.page.get_by_text("F_c 0.4").first.wait_for()
+    for name in tab.page.locator(".rail .name").all():  # of each page, not its number alone
+        place = name.bounding_box()
+        assert place["width"] > 15
+        assert place["x"] + place["width"] <= tab.page.locator(".rail").bounding_box()["width"]
     tab.shot(f"candidates-{width}")
     assert tab.errors == []
 
