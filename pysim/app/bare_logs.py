@@ -50,11 +50,7 @@ def _holds_numbers(table: RawTable, heading: str) -> bool:
 
 
 def matched(column: dict[str, Any], variables: Sequence[Sequence[str]]) -> None:
-    """Take the variable of the column's name, its role, and its unit where the heading has none.
-
-    Args:
-        variables: of the model: name, causality, unit, and more.
-    """
+    """Take the model's variable of the column's name, its role, and its unit where the heading has none."""
     found = next((v for v in variables if v[0] == column["name"]), None) or _but_for_case(column, variables)
     if found is None or column["variable"] or column["role"] == "time" or column.get("seen"):
         return

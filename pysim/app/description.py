@@ -110,11 +110,7 @@ def held_logs(dataset: Dataset, signal: MeasuredSignal) -> list[str]:
 
 
 def put_unit(name: str, section: dict[str, Any], unit: str, logged: str) -> None:
-    """Another unit of a signal; one of another quantity in which it was logged stays in words.
-
-    Args:
-        logged: the unit before, or of the heading.
-    """
+    """Another unit of a signal; one of another quantity, in which it was `logged`, stays in words."""
     section["unit"] = unit
     if logged in UNITS and logged != "1" and not _logged(section) and conversion(logged, unit) is None:
         section["quantity"] = f"{section.get('quantity', name)} [{logged}]"
@@ -136,11 +132,7 @@ def uncounted(name: str, section: Mapping[str, Any]) -> str:
 
 
 def put_steps(content: dict[str, Any], steps: Sequence[Mapping[str, Any]]) -> None:
-    """Other steps of preparation.
-
-    Args:
-        steps: as it writes them.
-    """
+    """Other steps of preparation, as a description has them."""
     content["dataset"].pop("preparation", None)
     if steps:
         content["dataset"]["preparation"] = [dict(step) for step in steps]
@@ -169,11 +161,7 @@ def begins(content: Mapping[str, Any]) -> str:
 
 
 def begin_logs(content: dict[str, Any], words: str) -> None:
-    """Let all logs over time begin so.
-
-    Args:
-        words: one of BEGINS.
-    """
+    """Let all logs over time begin so, as one of BEGINS says."""
     for record in content["records"]:
         if record.get("kind") != RESPONSE_TABLE.name:
             record.pop("initial", None)

@@ -13,7 +13,7 @@ from nicegui import run
 
 from pysim.app.answers import Answer, Answers
 from pysim.app.disk import remove
-from pysim.app.history import History
+from pysim.app.history import CHOICES, History, changed
 from pysim.app.jobs import DONE, STOPPED, Job, Runner, Work, adding, read_job, works
 from pysim.app.live import news
 from pysim.app.project import Project
@@ -98,16 +98,14 @@ class Desk:
     def changed(self) -> None:
         """Something that pages show is other than before."""
         self.history.look()  # now: what is chosen next is another step
+        if self.last is not None and self.last.fingerprint != self.project.fingerprint():
+            self.last = None  # it was of other choices
         self.version += 1
         self.beat += 1
         news.emit()
 
     def open(self, folder: Path, *, tasks: str = TASKS) -> None:
-        """Show another project from now on; nothing of it is read yet.
-
-        Args:
-            tasks: of its worker.
-        """
+        """Show another project from now on, with these tasks of its worker; nothing of it is read yet."""
         if self.runner.running is not None or self.taking or self.doing:
             raise BadInput("wait until the running work has ended, or stop it; then open another project")
         project = self.take(folder)
@@ -132,11 +130,7 @@ class Desk:
             self.start(self.work("compare"))
 
     async def describe(self, columns: Sequence[Mapping[str, Any]], kind: str) -> None:
-        """Make the logs a data set; as they were dropped they are kept as an earlier one.
-
-        Args:
-            columns, kind: as `bare_logs.describe_logs` takes them.
-        """
+        """Make the logs a data set; as they were dropped they are kept as an earlier one."""
         self._free_to_change()
         await self._do("Reading the logs", "describe", columns, kind)
         await self.read_data()
@@ -165,8 +159,17 @@ class Desk:
     def answers(self) -> Answers:
         """Finished results, read once per change."""
         if self._answers is None or self._answers[0] != self.version:
-            self._answers = (self.version, Answers.of(self.project))
+            self._answers = (self.version, found := Answers.of(self.project))
+            added = self.project.settings().added
+            if found.with_effects(added) if added else found.all:
+                self.history.held = self.history.now
         return self._answers[1]
+
+    @property
+    def put_aside(self) -> str:
+        """What was chosen otherwise since there were results; "" where these hold, or were none."""
+        read = self.answers  # which sees whether there are any now
+        return changed(self.history.held, self.history.now, CHOICES) if read else ""
 
     def tick(self) -> None:
         """Look after the running job, and after what was chosen."""
@@ -226,7 +229,7 @@ class Desk:
     async def add_law(self, name: str, place: LawPlace, law: str, ranges: Mapping[str, Range]) -> None:
         """Make a law an effect of the project, and try it beside those that the model has.
 
-        One of that name is changed, and what was found with it as it was is removed.
+        One of that name is changed, and what was found with it as it was is removed, what tried it too.
         """
         self._free_to_change()
         content = effect_class(name, place.slot, law, ranges, place.libraries)
@@ -234,7 +237,7 @@ class Desk:
         if file.is_file() and file.read_text(encoding="utf-8") != content:
             self.runner.worker.end()  # it keeps the class
             for job in map(read_job, (self.project.folder / "results").glob("*")):
-                if job is not None and name in job.work.effects:
+                if job is not None and (name in job.work.effects or job.work.kind in ("rank", "diagnose")):
                     remove(self.project.results(job.work.name), self.project.uploads)
             self.project.change(added=tuple(one for one in self.project.settings().added if one != name))
             self.history.begin_anew()
@@ -243,27 +246,17 @@ class Desk:
         self.model = await self._ask("model")
         self.add(name)
 
-    def change(self, **settings: Any) -> None:
-        """Choose something else, of what results depend on."""
+    def change(self, values: Mapping[str, float] | None = None, **settings: Any) -> None:
+        """Choose something else, of what results depend on, and other values; the model keeps its effects."""
         self._free_to_change()
-        self.project.change(**settings, added=())
-        self.changed()
-
-    def set_values(self, values: Mapping[str, float], **settings: Any) -> None:
-        """Give parameters other values than the model has.
-
-        Args:
-            settings: to choose otherwise at once.
-        """
-        self._free_to_change()
-        self.project.set_values(values)
-        self.project.change(**settings, added=())
+        if values is not None:
+            self.project.set_values(values)
+        self.project.change(**settings)
         self.changed()
 
     def keep(self, found: Mapping[str, float]) -> None:
-        """Begin at what a search has found, from now on."""
-        self.set_values({**self.project.values(), **found})
-        self.last = None
+        """Begin at what a search has found, from now on; what it has fitted is fitted on."""
+        self.change({**self.project.values(), **found}, free=self.project.settings().free or tuple(found))
 
     def raw_of(self, log: MeasuredRecord) -> Record | None:
         """A log before it was prepared; None where that is not known."""
@@ -301,23 +294,20 @@ class Desk:
         self.project.change(names=tuple(f"{key}={one}" for key, one in names.items() if one))
         self.changed()
 
-    async def turn_back(self, step: Callable[[], None]) -> None:
-        """Undo, or redo, what was chosen.
-
-        Args:
-            step: of the history.
-        """
+    async def turn_back(self, step: Callable[[], None]) -> str:
+        """Undo, or redo, what was chosen, a step of the history; what that was, for people."""
         if self.runner.running is not None or self.taking or self.doing:
-            return
-        before, described = self.project.settings(), self.project.description
-        data = described.read_bytes() if described.is_file() else b""
+            return ""
+        self.history.look()
+        now, before = self.history.now, self.project.settings()
         step()
-        after = self.project.settings()
+        told, after = changed(now, self.history.now), self.project.settings()
         self.changed()
-        if (described.read_bytes() if described.is_file() else b"") != data:
+        if now[self.project.description.name] != self.history.now[self.project.description.name]:
             await self.read_data()
         if (before.model, before.libraries) != (after.model, after.libraries):
             await self.read_model()
+        return told
 
     def unfinished(self) -> Job | None:
         """The newest job that was stopped and could go on, of the data and the model as they are."""
@@ -374,10 +364,8 @@ class Desk:
 
 def load(project: Project) -> Loaded | None:
     """Read the project's data set; None where there is none yet."""
-    if not project.data.is_dir():
-        return None
     if not project.description.is_file():
-        return Loaded(None)
+        return Loaded(None) if project.data.is_dir() else None
     try:
         found = read_described(project.data, partly=True)
         short = tuple((file, why.replace(f"{project.data}{os.sep}", "")) for file, why in found.refused)

@@ -46,9 +46,6 @@ def error_maps(stage: Mapping[str, Any], dataset: Dataset) -> list[ErrorMap]:
     """The maps of a stage that have something to show: stepped sines, then other logs by signal.
 
     A test that was repeated has a row of its own.
-
-    Args:
-        stage: as a file of stages has it.
     """
     tests = dataset.logs()
     sines: dict[tuple[_Point, int], _Row] = {}

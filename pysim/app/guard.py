@@ -92,11 +92,7 @@ class Guard:
             return True
 
     async def _welcome(self, send: Send, place: str) -> None:
-        """Keep the token as a cookie, and go on without it in the address.
-
-        Args:
-            place: below the address of the server, quoted.
-        """
+        """Keep the token as a cookie, and go on without it in the address, at a quoted place below the server's."""
         cookie = f"{self._cookie}={self._token}; Path=/; HttpOnly; SameSite=Strict"
         headers = [(b"location", f"/{place}".encode()), (b"set-cookie", cookie.encode())]
         await send({"type": "http.response.start", "status": 303, "headers": [*headers, *_HEADERS]})

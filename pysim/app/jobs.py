@@ -8,7 +8,8 @@ import json
 import time
 from collections.abc import Sequence
 from concurrent.futures import Future
-from dataclasses import dataclass, field, replace
+from dataclasses import asdict, dataclass, field, replace
+from itertools import pairwise
 from pathlib import Path
 from typing import Any
 
@@ -18,7 +19,6 @@ from pysim.app.project import VALUES, Project
 from pysim.app.worker import TASKS, Ended, Worker
 from pysim.io import write_file
 from pysim.types import BadInput
-from pysim.workflow import class_name_of
 
 RUNNING, DONE, STOPPED, FAILED = "running", "done", "stopped", "failed"
 _JOB = "job.json"
@@ -48,6 +48,11 @@ class Work:
     def kind(self) -> str:
         """compare, locate, rank, diagnose or add."""
         return "add" if self.name.startswith("add-") else self.name
+
+    @property
+    def libraries(self) -> tuple[str, ...]:
+        """That it is run with."""
+        return tuple(one for word, one in pairwise(self.words) if word == "--library")
 
 
 @dataclass(frozen=True)
@@ -99,13 +104,12 @@ def works(project: Project) -> dict[str, Work]:
         raise BadInput("no model yet; name one on the page Data")
     if not project.description.is_file():
         raise BadInput("no data set yet; drop one on the page Data")
-    more = [word for library in settings.libraries for word in ("--library", library)]
+    more = [word for library in project.libraries for word in ("--library", library)]
     more += ["--free", ",".join(settings.free)] if settings.free else []
     more += [word for name, (low, high) in settings.ranges.items() for word in ("--bounds", f"{name}={low!r}:{high!r}")]
     more += ["--parameters", VALUES] if project.values() else []
     behind = ["data", "--model", settings.model, *more]
-    laws = [word for one in laws_of(project, settings.added) for word in ("--library", one)]
-    there = [*laws, *(word for name in settings.added for word in ("--with", name))]
+    there = [word for name in settings.added for word in ("--with", name)]
     return {
         "compare": _work("compare", "Compare and refit", [*behind, "--refit"]),
         "locate": replace(_work("locate", "Locate what is missing", [*behind, *there]), effects=settings.added),
@@ -117,18 +121,12 @@ def works(project: Project) -> dict[str, Work]:
 def adding(project: Project, effects: Sequence[str]) -> Work:
     """The work that refits the model with some effects."""
     base = works(project)["diagnose"].words[1:]
-    own = [*base[: base.index("--json")], *(word for one in laws_of(project, effects) for word in ("--library", one))]
+    own = base[: base.index("--json")]
     safe = "+".join("".join(c if c.isalnum() or c in "._-" else "_" for c in name) for name in effects)
     chain = hashlib.sha256(repr(tuple(effects)).encode()).hexdigest()[:8]  # the names alone may be cut, or look alike
     title = f"Add {effects[-1]}"
     words = [*own, *(word for name in effects for word in ("--effects", name))]
     return replace(_work("add", title, words, f"add-{safe[:80]}-{chain}"), effects=tuple(effects))
-
-
-def laws_of(project: Project, effects: Sequence[str]) -> list[str]:
-    """Libraries of the effects that were written on the page, as they are seen from the project."""
-    files = [project.laws / f"{class_name_of(name)}.mo" for name in effects]
-    return [file.relative_to(project.folder).as_posix() for file in files if file.is_file()]
 
 
 def _work(command: str, title: str, words: Sequence[str], name: str = "") -> Work:
@@ -142,8 +140,8 @@ def read_job(folder: Path) -> Job | None:
     """Where the work of a folder stands, as it was written last; None where none was begun."""
     try:
         head = json.loads((folder / _JOB).read_text(encoding="utf-8"))
-        words, effects = tuple(head["work"]["words"]), tuple(head["work"]["effects"])
-        work = Work(head["work"]["name"], head["work"]["title"], words, effects)
+        own = head["work"]
+        work = Work(own["name"], own["title"], tuple(own["words"]), tuple(own["effects"]))
         job = Job(work, head["state"], head["begun"], head["ended"], head["fingerprint"], message=head["message"])
         process = head.get("process")
         job = replace(job, process=process and Started(int(process["pid"]), float(process["began"])))
@@ -154,10 +152,7 @@ def read_job(folder: Path) -> Job | None:
 
 def _write_job(job: Job, folder: Path) -> None:
     """But for what its events say."""
-    work = {"name": job.work.name, "title": job.work.title, "words": job.work.words, "effects": job.work.effects}
-    head = {"work": work, "state": job.state, "begun": job.begun, "ended": job.ended}
-    head |= {"fingerprint": job.fingerprint, "message": job.message}
-    head |= {"process": None if job.process is None else {"pid": job.process.pid, "began": job.process.began}}
+    head = {key: one for key, one in asdict(job).items() if key not in ("stage", "trials", "curves")}
     write_file(folder / _JOB, json.dumps(head, indent=1) + "\n")
 
 

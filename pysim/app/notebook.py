@@ -23,8 +23,7 @@ def notebook(project: Project) -> str:
 def _cells(project: Project) -> Iterator[tuple[str, str]]:
     """What each step is, and its lines."""
     settings, values = project.settings(), project.values()
-    laws = sorted(path.relative_to(project.folder).as_posix() for path in project.laws.glob("*.mo"))
-    libraries = [*settings.libraries, *laws]
+    libraries = [*project.libraries]
     yield "The measurements, prepared as dataset.toml says.", 'import pysim\n\ndata = pysim.load("data")\ndata.check()'
     lines = [f"model = pysim.model({settings.model!r}" + (f", library={libraries!r})" if libraries else ")")]
     if values:

@@ -116,6 +116,12 @@ class Project:
         return self.folder / "laws"
 
     @property
+    def libraries(self) -> tuple[str, ...]:
+        """Those of the user and each law, as they are seen from the project."""
+        laws = sorted(path.relative_to(self.folder).as_posix() for path in self.laws.glob("*.mo"))
+        return (*self.settings().libraries, *laws)
+
+    @property
     def uploads(self) -> Path:
         """Where a drop comes in and what is thrown away goes; a server that starts empties it."""
         return self.folder / "uploads"

@@ -17,7 +17,7 @@ import numpy as np
 from pysim import workflow
 from pysim.app.bare_logs import describe_logs
 from pysim.app.followed import Followed
-from pysim.app.jobs import ANSWER, CURVES, EVENTS, OUTPUT, RECORDS, REPORT, Work, laws_of, read_job
+from pysim.app.jobs import ANSWER, CURVES, EVENTS, OUTPUT, RECORDS, REPORT, Work, read_job
 from pysim.app.project import Project
 from pysim.app.worker import said_in
 from pysim.diagnosis import Session, Settings, add, compare, diagnose, learn, rank
@@ -54,7 +54,7 @@ class Tasks:
     def model(self) -> dict[str, Any]:
         """What the project's model holds, as `pysim model --json` says it, and whether it is the thesis' pump."""
         settings = self._project.settings()
-        libraries = [*map(Path, settings.libraries), *self._project.laws.glob("*.mo")]
+        libraries = [*map(Path, self._project.libraries)]
         model = workflow.model_of(settings.model, libraries)
         known = workflow.inside(model, libraries)
         found = data(Inside(model, known.class_name, known.slots, known.taken, tuple(libraries)))
@@ -142,10 +142,10 @@ class Tasks:
             names = [one for one in {*result.files.values(), *more} if (folder / REPORT / one).is_file()]
             mark(folder / REPORT, names)
 
-    def _opened(self, laws: Sequence[str]) -> workflow.SessionParts:
-        """The project's model and data, opened once while they stay as they are, with the libraries of some laws."""
+    def _opened(self, work: Work) -> workflow.SessionParts:
+        """The project's model and data, opened once while they and the libraries of the work stay as they are."""
         now, settings = self._project.fingerprint(), self._project.settings()
-        libraries = tuple(Path(one) for one in (*settings.libraries, *laws))
+        libraries = tuple(map(Path, work.libraries))
         if self._parts is None or self._of != now or self._parts.libraries != libraries:
             measured = workflow.data_of(Path("data"))
             reference_hz = workflow.reference_of(measured.responses())
@@ -159,7 +159,7 @@ class Tasks:
 
     def _result(self, work: Work, tell: Callable[[ProgressEvent], None]) -> Diagnosed:
         """What a piece of work finds, kept."""
-        parts = self._opened(laws_of(self._project, work.effects))
+        parts = self._opened(work)
         report = self._project.results(work.name) / REPORT
         report.mkdir(exist_ok=True)
         found = self._function(work, parts)(progress=tell, checkpoint=report / CHECKPOINT)

@@ -38,21 +38,20 @@ def _top(desk: Desk) -> None:
         with box("row"):
             start_button(desk, "Find what is missing", "diagnose", "main")
             text("span", "or try a candidate on the page Candidates", "small")
-    if answer is not None:
-        if running is None:
-            doubts(answer)
-        if settings.added:
-            back = partial(desk.choose, settings.added[:-1])
-            with box("row end"):
-                text("span", f"The model with {' and '.join(settings.added)}", "statement")
-                button(f"Undo {settings.added[-1]}", back, "small", off=busy(desk))
+    if answer is not None and running is None:
+        doubts(answer)
+    if settings.added:
+        back = partial(desk.choose, settings.added[:-1])
+        with box("row end"):
+            text("span", f"The model with {' and '.join(settings.added)}", "statement")
+            button(f"Undo {settings.added[-1]}", back, "small", off=busy(desk))
 
 
 def _below(desk: Desk) -> None:
     settings = desk.project.settings()
     answer = desk.answers.with_effects(settings.added)
     if answer is None:
-        if desk.runner.running is None:
+        if desk.runner.running is None and not desk.put_aside:
             nothing("Nothing was fitted yet", "The error begins with the model as it is.")
         return
     _error(history(answer, settings.added))

@@ -13,6 +13,7 @@ from pysim.app.live import live
 from pysim.app.pages.common import busy, ended, nothing, played, start_button
 from pysim.app.pages.moving import moving
 from pysim.app.parts import box, button, card, curve, head, text
+from pysim.io import shown_value
 from pysim.present.diagnosis.words import called, share_text
 
 
@@ -32,8 +33,9 @@ def _top(desk: Desk) -> None:
         start_button(desk, "Rank the candidates", "rank", "main" if answer is None else "")
         start_button(desk, "Find what is missing", "diagnose", then="/add")
         text("span", "Ranking decides nothing; finding adds what the measurements demand, and says why.", "small")
-    if desk.answers.verdict is not None:
-        _verdict(desk.answers.verdict)
+    whole = desk.answers.verdict
+    if whole is not None and whole.added == desk.project.settings().added:  # else it is about another model
+        _verdict(whole)
 
 
 def _build(desk: Desk) -> None:
@@ -44,13 +46,12 @@ def _build(desk: Desk) -> None:
         return
     with card("Candidates" if answer else "Effects that fit the model's slots"):
         rows = _rows(answer)
-        if not rows:
-            rows = [{"effect": one["name"]} for one in effects]
-        top = max((row["score"] for row in rows if (row.get("score") or 0.0) > 0), default=1.0)
+        tried = {row["effect"] for row in rows}  # a law may have been written since
+        rows += [{"effect": one["name"]} for one in effects if one["name"] not in tried]
         groups = [] if answer is None else [set(group) for group in answer.data["confusable"]]
         with box("tight").props('role="list"'):
             for rank, row in enumerate(rows, 1):
-                _candidate(desk, rank, row, top, groups)
+                _candidate(desk, rank, row, groups)
 
 
 def _rows(answer: Answer | None) -> list[Mapping[str, Any]]:
@@ -80,7 +81,7 @@ def _verdict(answer: Answer) -> None:
                     played(answer)
 
 
-def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups: list[set[str]]) -> None:
+def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], groups: list[set[str]]) -> None:
     name = str(row["effect"])
     known = next((one for one in (desk.model or {}).get("effects", []) if one["name"] == name), None)
     tied = any(name in group for group in groups)
@@ -91,7 +92,7 @@ def _candidate(desk: Desk, rank: int, row: Mapping[str, Any], top: float, groups
         curve(known and known["sketch"])
         with box("tight"):
             _named(known or {"name": name, "about": called(name)}, tied=tied)
-        _gain(row, top)
+        _gain(row, {one["name"]: one["unit"] for one in (known or {}).get("parameters", ())})
         _trying(desk, name)
 
 
@@ -131,18 +132,19 @@ def occupied(model: Mapping[str, Any], name: str, added: Sequence[str]) -> list[
     return [] if set() in classes or {*here, name} in classes else here
 
 
-def _gain(row: Mapping[str, Any], top: float) -> None:
+def _gain(row: Mapping[str, Any], units: Mapping[str, str]) -> None:
     with box("gain"):
         if "score" not in row:
             return
-        score = float(row["score"] or 0.0)
+        gains, explained = (row["score"] or 0.0) > 0, float(row["explained"] or 0.0)
         with box("bar"):
-            ui.element("i").style(f"width: {max(0.0, min(100.0, 100 * score / top)):.1f}%")
+            ui.element("i").style(f"width: {100 * max(0.0, min(1.0, explained)) * gains:.1f}%")
         how = "refitted" if row["refitted"] else "estimated, not refitted"
-        share = f"explains {share_text(float(row['explained'] or 0.0))} of the misfit"
-        text("span", f"{share} ({how})" if score > 0 else "gains nothing: no better than the model without it")
-        sizes = ", ".join(f"{name} {value:.4g}" for name, value in row["parameters"].items() if value is not None)
-        text("span", sizes, "small mono")
+        share = f"explains {share_text(explained)} of the misfit"
+        text("span", f"{share} ({how})" if gains else "gains nothing: no better than the model without it")
+        found = {name: value for name, value in row["parameters"].items() if value is not None}
+        sizes = (f"{name} {shown_value(value, units.get(name) or '1', '.4g')}" for name, value in found.items())
+        text("span", ", ".join(sizes), "small mono")
 
 
 def _try(desk: Desk, name: str) -> None:

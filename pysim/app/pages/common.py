@@ -12,7 +12,7 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.disk import disk_trouble
-from pysim.app.jobs import FAILED, STOPPED
+from pysim.app.jobs import FAILED, STOPPED, adding
 from pysim.app.parts import Chart, Entry, box, button, note, say, text
 from pysim.app.records import MOST, Overlay
 from pysim.app.worker import Ended
@@ -74,6 +74,7 @@ def unfit(desk: Desk) -> list[str]:
 
 def ended(desk: Desk) -> None:
     """What became of the last piece of work, where that needs words; how to go on."""
+    aside(desk)
     if desk.trouble:
         note(desk.trouble, "bad")
     for work in desk.answers.unreadable:
@@ -92,6 +93,21 @@ def ended(desk: Desk) -> None:
                     words = f"Keep its best values ({best['error']:.3g} × noise)"
                     button(words, lambda: desk.keep(best["values"]), "small", off=busy(desk))
                 button("Go on", lambda: desk.start(job.work), "small", off=busy(desk))
+
+
+def aside(desk: Desk) -> None:
+    """What became of results that belong to other choices, and a button that makes them of these."""
+    if desk.put_aside and desk.runner.running is None:
+        added = desk.project.settings().added
+        with box("note row end"):
+            text("span", aside_words(desk))
+            again = lambda: desk.start(adding(desk.project, added) if added else desk.work("compare"))  # noqa: E731
+            button("Fit it again", again, "small", off=busy(desk))
+
+
+def aside_words(desk: Desk) -> str:
+    """Why there are no results."""
+    return f"The results belonged to what was chosen before. Changed: {desk.put_aside}. Undo brings them back."
 
 
 def doubts(answer: Answer) -> None:
@@ -145,11 +161,7 @@ def record_chart(
     overlay: Overlay, of: str, number: int, label: str, height: int,
     on_range: Callable[[tuple[float, float] | None], Any] | None = None,
 ) -> None:  # fmt: skip
-    """A log over time, whose samples are fetched by window.
-
-    Args:
-        of, number: as the address /series takes them.
-    """
+    """A log over time, whose samples are fetched by window from the address /series."""
     place, traces = f"/series?of={of}&record={number}", list(range(len(overlay.lines)))
     series = {"url": place, "traces": traces, "span": overlay.span, "most": MOST}
     Chart(overlay.figure(), label, height=height, series=series, on_range=on_range)

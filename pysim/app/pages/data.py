@@ -160,7 +160,6 @@ def change(desk: Desk, edit: Callable[[dict[str, Any]], Any], *, safe: bool = Fa
         content = description.read_description(desk.project.description)
         edit(content)
         description.change_description(desk.project.description, content, read=not safe)
-        desk.project.change(added=())
         desk.history.look()
     finally:
         background_tasks.create(desk.read_data())  # what was typed is as it was, where it was refused

@@ -11,31 +11,20 @@ _ABOUT = {
     ),
     "/": (
         "Drop a folder with a dataset.toml, a .zip, or single logs. Logs without a dataset.toml are described here.",
-        "Name a Modelica class, or drop an .fmu or a library.",
         "Logs used to choose help to tell which model is better. Held-out logs show how well the answer predicts.",
     ),
     "/prepare": (
         "Drag over a stretch of a log to zoom in. Then keep it, or cut it out. The grey line is what was logged.",
         "Steps are done one after the other. Switch one off to see what it does; Ctrl+Z takes back the last change.",
-        "The steps stand in data/dataset.toml. Python and the command line do them as well.",
     ),
     "/model": (
         "Move a slider. One log is simulated again at once; the curves and the residual follow.",
         "Where you let go is kept in parameters.toml. Fits and searches begin there.",
         "A log begins where it was estimated to begin with the first values that were shown.",
     ),
-    "/compare": (
-        "Every log beside the model. Residuals are in standard deviations of the noise: 1 means only noise is left.",
-        "Click a cell of the map to open its log. Drag in a figure to zoom, double click to see all.",
-    ),
-    "/locate": (
-        "For each place in the model we estimate the force, flow or signal that would close the gap.",
-        "Pick a place in the drawing to see the law that it would need.",
-    ),
-    "/candidates": (
-        "Effects of the catalogue that fit the model, ranked by how much of the misfit each explains.",
-        "Try adds an effect and refits the model.",
-    ),
+    "/compare": ("A residual of 1 means only noise is left. Click a cell of the map to open its log.",),
+    "/locate": ("Pick a place in the drawing to see the law that it would need.",),
+    "/candidates": ("Try adds an effect and refits the model.",),
     "/add": ("The error falls step by step while effects are added. Parameters are shown before and after.",),
     "/take": ("Download the extended class, its FMU and the fitted values. The report is drawn when you open it.",),
 }

@@ -13,7 +13,7 @@ from pysim.app.answers import current
 from pysim.app.description import BEGINS, begin_logs, begins, read_description
 from pysim.app.desk import Desk
 from pysim.app.live import live
-from pysim.app.pages.common import busy, nothing
+from pysim.app.pages.common import aside, busy, nothing
 from pysim.app.pages.data import change
 from pysim.app.parts import Chart, Choice, Sliders, box, button, card, head, text
 from pysim.app.records import followed_overlay
@@ -61,7 +61,7 @@ class _Follows:
         with card("Parameters"):
             self._sliders = Sliders(self._rows(), self._moved, self._fit, self._bound)
             with box("row"):
-                button("All as the model has them", lambda: self._desk.set_values({}, bounds=()), "small")
+                button("All as the model has them", lambda: self._desk.change({}, bounds=()), "small")
                 live(lambda: self._desk.version, self._fitted, "row")
         with card("Initial states"), box("row"):
             text("span", "The logs begin")
@@ -78,6 +78,7 @@ class _Follows:
             button("Take over the fitted values", lambda: self._desk.keep(own), "small")
             model = f"of the model with {' and '.join(added)}" if added else "of the refitted model"
             text("span", f"Fitted values are those {model}{': ' * bool(more)}{', '.join(more)}.", "small")
+        aside(self._desk)
 
     def _beginning(self) -> None:
         now = begins(read_description(self._desk.project.description))
@@ -161,7 +162,7 @@ class _Follows:
         self._ask()
         if done:
             kept = {key: one for key, one in self._desk.project.values().items() if key != name}
-            self._desk.set_values(kept if value == self._parameter(name)["start"] else {**kept, name: value})
+            self._desk.change(kept if value == self._parameter(name)["start"] else {**kept, name: value})
 
     def _parameter(self, name: str) -> Mapping[str, Any]:
         """As the model has it."""

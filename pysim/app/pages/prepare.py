@@ -39,7 +39,7 @@ def prepare_page(desk: Desk) -> None:
     """Logs and steps."""
     view = _View(desk)
     head("Prepare", "Make the logs ready. Each step stands in dataset.toml, so Python and the command line do it too.")
-    live(lambda: desk.version, view.lights, "gap")
+    live(lambda: (desk.version, view.log), view.lights, "gap")
     live(lambda: (desk.version, view.log), view.look, "gap")
     with box("two"):
         live(lambda: desk.version, view.steps, "gap")

@@ -13,7 +13,7 @@ from pysim.app.jobs import FAILED
 from pysim.app.live import live
 from pysim.app.pages.add import add_page
 from pysim.app.pages.candidates import best_of, candidates_page
-from pysim.app.pages.common import refused
+from pysim.app.pages.common import aside_words, refused
 from pysim.app.pages.compare import compare_page
 from pysim.app.pages.data import data_page
 from pysim.app.pages.help import help_of
@@ -22,7 +22,7 @@ from pysim.app.pages.model import model_page
 from pysim.app.pages.prepare import prepare_page
 from pysim.app.pages.start import start_page
 from pysim.app.pages.take import take_page
-from pysim.app.parts import box, button, text
+from pysim.app.parts import box, button, say, text
 from pysim.app.project import LOOKS
 from pysim.io import counted
 
@@ -55,8 +55,8 @@ def shell(desk: Desk) -> None:
         seen["help"] = "" if seen["help"] else "open"
 
     ui.on("help", turn)
-    ui.on("undo", lambda: desk.turn_back(desk.history.undo))
-    ui.on("redo", lambda: desk.turn_back(desk.history.redo))
+    ui.on("undo", partial(_turn, desk, "Undone"))
+    ui.on("redo", partial(_turn, desk, "Redone"))
     with box("shell"):
         text("a", "To the page", "skip").props('href="#page"')
         with box("top", "header"):
@@ -66,6 +66,7 @@ def shell(desk: Desk) -> None:
             live(lambda: desk.version, lambda: _what(desk), "what")
             live(lambda: (desk.beat, _seconds(desk)), lambda: _job(desk))
             live(lambda: (len(desk.history.past), len(desk.history.future)), lambda: _undo(desk), "turns")
+            live(lambda: desk.put_aside, lambda: say(aside_words(desk)) if desk.put_aside else None)
             live(lambda: desk.project.settings().look, lambda: _look_button(desk))
             button("? Help", turn, "quiet")
         with box("rail", "nav").props('aria-label="Steps"'):
@@ -79,12 +80,17 @@ def shell(desk: Desk) -> None:
 def _undo(desk: Desk) -> None:
     """Back and forward over all that was chosen."""
     history = desk.history
-    for words, keys, steps, turn in (
-        ("↶ Undo", "Ctrl+Z", history.past, history.undo), ("↷ Redo", "Ctrl+Y", history.future, history.redo),
+    for words, keys, steps, done in (
+        ("↶ Undo", "Ctrl+Z", history.past, "Undone"), ("↷ Redo", "Ctrl+Y", history.future, "Redone"),
     ):  # fmt: skip
-        press = button(words, partial(desk.turn_back, turn), "quiet", off="" if steps else "Nothing to go back to")
+        press = button(words, partial(_turn, desk, done), "quiet", off="" if steps else "Nothing to go back to")
         if steps:
             press.props(f'title="{keys}"')
+
+
+async def _turn(desk: Desk, done: str) -> None:
+    if told := await desk.turn_back(desk.history.undo if done == "Undone" else desk.history.redo):
+        say(f"{done}: {told}")
 
 
 def _help(seen: dict[str, str]) -> None:

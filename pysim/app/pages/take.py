@@ -10,7 +10,7 @@ from nicegui import ui
 from pysim.app.answers import Answer
 from pysim.app.desk import Desk
 from pysim.app.live import live
-from pysim.app.pages.common import nothing, played
+from pysim.app.pages.common import aside, nothing, played
 from pysim.app.parts import box, button, card, head, say, text
 from pysim.workflow import command_line
 
@@ -32,9 +32,10 @@ def _build(desk: Desk) -> None:
     head("Take it away", "Everything is a file in the project's folder already; the commands make all of it again.")
     added = desk.project.settings().added
     answer = desk.answers.with_effects(added)
-    if answer is None:
+    aside(desk)
+    if answer is None and not desk.put_aside:
         nothing("Nothing to take yet", "Compare, find what is missing, or try a candidate first.")
-    else:
+    elif answer is not None:
         if added:
             text("p", f"The model with {' and '.join(added)}.", "statement")
         _files(answer)

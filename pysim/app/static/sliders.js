@@ -18,7 +18,7 @@ export default {
         <td v-if="fits" class="number">{{ row.now == null ? "" : Number(row.now.toPrecision(4)) }}</td>
         <td>{{ row.unit }}</td>
         <td v-for="end in ['min', 'max']" :key="end"><Entry needed type="number" step="any" class="field bound" :aria-label="end + ' of ' + row.name"
-              :value="row[end]" :stamp="stamp" @put="(words) => $emit('bound', { name: row.name, end, value: Number(words) })" /></td>
+              :value="short(row[end])" :stamp="stamp" @put="(words) => $emit('bound', { name: row.name, end, value: Number(words) })" /></td>
         <td class="tick"><input v-if="row.slides" type="checkbox" :aria-label="'fit ' + row.name" :checked="row.fitted"
                                 @change="$emit('fit', { name: row.name, on: $event.target.checked })" /></td>
       </tr></tbody>
@@ -52,6 +52,10 @@ export default {
     },
     shown(row) {
       return Number(this.values[row.name].toPrecision(5));
+    },
+    short(value) {
+      const power = value == null ? "" : value.toExponential().replace("e+", "e"); // 3e8 for 300000000: all of it is seen
+      return String(value ?? "").length > Math.max(7, power.length) ? power : value;
     },
     place(row) {
       const value = this.values[row.name];

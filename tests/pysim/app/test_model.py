@@ -122,7 +122,39 @@ def test_fitted_values_stand_beside_those_where_fits_begin_and_are_taken_over(
     tab.page.reload()
     tab.see("Fitted values are those of the refitted model.")
     assert dict(tab.page.evaluate(fitted)) == {"m": "2", "d": "1", "k": "3"}
+    tab.page.locator(".chart[data-ready=yes]").wait_for()
     tab.press("Take over the fitted values")
     tab.until(lambda: project.values() == {"m": 2.0, "d": 1.0, "k": 3.0})
     tab.until(lambda: tab.page.get_by_label("value of k").input_value() == "3")
+    told = "The results belonged to what was chosen before. Changed: what is fitted, m, k and d. Undo brings them back."
+    tab.page.locator(".q-notification", has_text=told).wait_for(timeout=20_000)
+    aside = tab.page.locator(".note", has_text=told)
+    for page in ("Add", "Compare", "Take away"):
+        tab.go(page)
+        aside.wait_for(timeout=20_000)
+        assert tab.page.get_by_text("Nothing was fitted yet").count() == 0
+    tab.shot("model-aside")
+    tab.press("↶ Undo")
+    tab.see("Undone: what is fitted, m, k and d")
+    aside.wait_for(state="detached", timeout=20_000)
+    tab.press("↷ Redo")
+    tab.see("Redone: what is fitted, m, k and d")
+    tab.press("Fit it again")
+    tab.see("Done after", timeout=40)  # values that were set would be fitted no more
+    assert aside.count() == 0
+    tab.go("Model")
+    tab.page.locator(".chart[data-ready=yes]").wait_for()
+    most = tab.page.get_by_label("max of k")
+    for typed, seen in (("300000000", "3e8"), ("1234567", "1234567")):  # all of it is seen
+        most.fill(typed)
+        most.blur()
+        tab.until(lambda typed=typed: project.settings().ranges.get("k") == (1.0, float(typed)))
+        tab.until(lambda seen=seen: most.input_value() == seen)
+        assert most.evaluate("(el) => el.scrollWidth <= el.clientWidth")
+    tab.press("↶ Undo")
+    tab.press("↶ Undo")
+    tab.until(lambda: project.settings().ranges == {})
+    tab.page.get_by_label("how the logs begin").select_option("at rest")
+    tab.see("Changed: how the logs begin. Undo", timeout=20)
+    tab.page.get_by_text("Done after").wait_for(state="detached", timeout=20_000)  # that was of the choices before
     assert tab.errors == []

@@ -11,6 +11,8 @@ from pysim.app.project import Project
 from pysim.app.tasks import Tasks
 from pysim.cli import main
 from pysim.diagnosis import learn
+from pysim.workflow import LawPlace, effect_class
+from pysim.workflow.own_law import Range
 from tests.pysim.app.made import rubbing
 from tests.toy import TEXT
 
@@ -86,15 +88,29 @@ def test_where_something_is_missing_is_asked_of_the_model_with_its_effects(proje
     assert (work.kind, work.effects) == ("locate", ("toy.friction", "my.drag"))
     words = " ".join(work.words)
     assert "--library laws/MyDrag.mo --with toy.friction --with my.drag" in words
+    (project.laws / "MyDrag.mo").unlink()
     own = Tasks(project.folder)
-    step = own._function(replace(work, effects=("toy.friction", "offset of x")), own._opened(()))
+    step = own._function(replace(work, effects=("toy.friction", "offset of x")), own._opened(works(project)["locate"]))
     assert step.func is learn  # type: ignore[attr-defined]
     assert [one.name for one in step.args[1]] == ["toy.friction"]  # type: ignore[attr-defined]
 
 
 def test_models_and_data_are_opened_once_while_they_stay_as_they_are(project: Project) -> None:
     own = Tasks(project.folder)
-    assert own._opened(()) is own._opened(())
-    before = own._opened(())
+    work = works(project)["compare"]
+    before = own._opened(work)
+    assert own._opened(works(project)["locate"]) is before
     (project.models / "Toy.mo").write_text(f"{TEXT}\n")
-    assert own._opened(()) is not before
+    assert own._opened(work) is not before
+
+
+@pytest.mark.slow
+def test_a_law_of_the_user_is_tried_with_every_effect_that_fits(project: Project) -> None:
+    place = LawPlace.of("Toy.Mass", "force", [project.models / "Toy.mo"])
+    law = effect_class("my.rubbing", place.slot, "-F*tanh(v/0.02)", {"F": Range(-2.0, 2.0, 0.4, "N")}, place.libraries)
+    project.laws.mkdir()
+    (project.laws / "MyRubbing.mo").write_text(law)
+    own = Tasks(project.folder)
+    folder = done(project, "rank", own)
+    assert "my.rubbing" in {one["name"] for one in own.model()["effects"]}  # those that the page counts
+    assert "my.rubbing" in {one["effect"] for one in answer(folder)["ranking"]}  # type: ignore[attr-defined]

@@ -80,8 +80,8 @@ def test_a_law_is_changed_under_its_name(project: Project) -> None:
     async def write(law: str) -> None:
         await desk.add_law("my.rubbing", place, law, {"F": Range(-2.0, 2.0, 0.4, "N")})
 
-    def found(*effects: str) -> Path:
-        folder = project.results("add-" + "+".join(effects))
+    def found(*effects: str, name: str = "") -> Path:
+        folder = project.results(name or "add-" + "+".join(effects))
         folder.mkdir(parents=True)
         _write_job(Job(Work(folder.name, "Add", ("add",), effects), "done", 1.0, 2.0, project.fingerprint()), folder)
         return folder
@@ -90,12 +90,13 @@ def test_a_law_is_changed_under_its_name(project: Project) -> None:
     file = project.laws / "MyRubbing.mo"
     assert "tanh(v/0.02)" in file.read_text()
     mine, other = found("toy.bias", "my.rubbing"), found("toy.bias")
+    tried = found(name="diagnose")
     project.change(added=("toy.bias", "my.rubbing"))
     asyncio.run(write(LAW))  # the same again changes nothing
     assert mine.exists()
     asyncio.run(write("-F*tanh(v/0.5)"))
     assert "tanh(v/0.5)" in file.read_text()
-    assert (mine.exists(), other.exists()) == (False, True)
+    assert (mine.exists(), tried.exists(), other.exists()) == (False, False, True)
     assert project.settings().added == ("toy.bias",)
     assert begun == ["my.rubbing"] * 3
     desk.runner.close()
