@@ -20,7 +20,7 @@ def given(*words: str) -> SessionParts:
 
 def as_it_is(words: list[str], tmp_path: Path) -> dict[str, float]:
     """The error over noise of a model that is not refitted."""
-    assert main(["compare", *words, "--json", str(tmp_path / "a.json")]) == 1
+    assert main(["compare", *words, "--json", str(tmp_path / "a.json")]) == 0
     found = json.loads((tmp_path / "a.json").read_text())
     assert (found["parameters"], found["conditions"]["free parameters"]) == ({}, "none")
     (prior,) = found["error"]
