@@ -250,13 +250,21 @@ class Desk:
         """Choose something else, of what results depend on, and other values; the model keeps its effects."""
         self._free_to_change()
         if values is not None:
+            settings = {"free": self.fitted, **settings}  # else fits would hold what is set
             self.project.set_values(values)
         self.project.change(**settings)
         self.changed()
 
+    @property
+    def fitted(self) -> tuple[str, ...]:
+        """What fits change: what was chosen; else all with bounds and a usual size, of the model or of the user."""
+        settings, rows = self.project.settings(), (self.model or {}).get("parameters", [])
+        whole = (one["name"] for one in rows if None not in (one["min"], one["max"], one["nominal"], one["start"]))
+        return settings.free or tuple(dict.fromkeys((*whole, *settings.ranges)))
+
     def keep(self, found: Mapping[str, float]) -> None:
         """Begin at what a search has found, from now on; what it has fitted is fitted on."""
-        self.change({**self.project.values(), **found}, free=self.project.settings().free or tuple(found))
+        self.change({**self.project.values(), **found})
 
     def raw_of(self, log: MeasuredRecord) -> Record | None:
         """A log before it was prepared; None where that is not known."""

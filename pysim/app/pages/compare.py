@@ -163,20 +163,21 @@ def _list(view: _View, dataset: Dataset, errors: Mapping[int, list[float | None]
     columns = [("record", "words"), ("use", "words"), *sine]
     count = max((len(one) for one in errors.values()), default=0)
     columns += [("error, refitted" if k == 0 else "error, now", "number") for k in range(count)]
-    rows = [_row(log, dataset, errors.get(k, []), count, bool(sine)) for k, log in enumerate(logs)]
+    units = [command_unit(dataset, log.command) if sine else None for log in logs]
+    rows = [_row(log, unit, errors.get(k, []), count) for k, (log, unit) in enumerate(zip(logs, units, strict=True))]
     with card("All records"):
         Table("Records", columns, rows, on_row=lambda k: _open(view, k), picked=picked, height="330px")
 
 
-def _row(log: MeasuredRecord, dataset: Dataset, errors: list[float | None], count: int, sine: bool) -> list[Any]:
-    """A log, what sine it is, and its errors over noise, of which there are cells for so many."""
-    unit, hertz = command_unit(dataset, log.command), "" if log.frequency is None else f"{log.frequency:g}"
+def _row(log: MeasuredRecord, unit: str | None, errors: list[float | None], count: int) -> list[Any]:
+    """A log, its sine in a unit (None: no cells for it), and its errors over noise in so many cells."""
+    hertz = "" if log.frequency is None else f"{log.frequency:g}"
     cells: list[Any] = ["" for _ in range(count)]
     for k, value in enumerate(errors):
         if value is not None:
             cells[k] = {"text": f"{value:.2f}", "value": value, "mark": "high" if value > BEYOND else "low"}
-    own = [quantity(log.offset, unit), quantity(log.amplitude, unit), hertz] if sine else []
-    return [log.source, USES[log.use], *own, *cells]
+    sine = [] if unit is None else [quantity(log.offset, unit), quantity(log.amplitude, unit), hertz]
+    return [log.source, USES[log.use], *sine, *cells]
 
 
 def _bode(desk: Desk, view: _View) -> None:

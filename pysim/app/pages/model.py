@@ -108,9 +108,7 @@ class _Follows:
     def _rows(self) -> list[dict[str, Any]]:
         """Name, value, bounds, unit, and whether it is fitted."""
         set_, settings, now = self._desk.project.values(), self._desk.project.settings(), _fitted_now(self._desk)
-        fitted = settings.free or (*suggested(self._desk), *settings.ranges)
-        written = replace(settings, free=()).ranges
-        rows = []
+        fitted, written, rows = self._desk.fitted, replace(settings, free=()).ranges, []
         for one in (self._desk.model or {}).get("parameters", []):  # none while it is built anew
             if one["start"] is not None:
                 low, high = written.get(one["name"], (one["min"], one["max"]))
@@ -140,13 +138,11 @@ class _Follows:
 
     def _fit(self, name: str, on: bool) -> None:
         """Let a fit change a parameter, or leave it."""
-        settings = self._desk.project.settings()
-        all_ = dict.fromkeys((*suggested(self._desk), *replace(settings, free=()).ranges))
-        free = tuple(one for one in settings.free or all_ if one != name) + ((name,) if on else ())
+        free = tuple(one for one in self._desk.fitted if one != name) + ((name,) if on else ())
         try:
             if not free:
                 raise BadInput("nothing would be fitted; leave at least one parameter ticked")
-            self._desk.change(free=() if {*free} == {*all_} else free)
+            self._desk.change(free=free)
         finally:
             self._show()
 
@@ -212,9 +208,3 @@ def _fitted_now(desk: Desk) -> dict[str, float]:
     answer = desk.answers.with_effects(added)
     estimates = () if answer is None else current(answer, added)["estimates"]
     return {one["name"]: one["value"] for one in estimates if "@" not in one["name"]}
-
-
-def suggested(desk: Desk) -> tuple[str, ...]:
-    """Parameters that are fitted where nobody has chosen: all that the model gives bounds and a usual size."""
-    rows = (desk.model or {}).get("parameters", [])
-    return tuple(one["name"] for one in rows if None not in (one["min"], one["max"], one["nominal"], one["start"]))
