@@ -15,6 +15,7 @@ from pysim.app.pages.moving import moving
 from pysim.app.parts import box, button, card, curve, head, text
 from pysim.io import shown_value
 from pysim.present.diagnosis.words import called, share_text
+from pysim.present.notes import listed
 
 
 def candidates_page(desk: Desk) -> None:
@@ -73,7 +74,7 @@ def _verdict(answer: Answer) -> None:
     with card():
         text("p", str(answer.data["reason"]), "statement")
         for group in answer.data["confusable"]:
-            text("p", f"These data cannot tell {' and '.join(group)} apart.", "note")
+            text("p", f"These data cannot tell {listed(group)} apart.", "note")
         if "next_test_about" in answer.data:
             with box("note row"):
                 text("span", f"The test that would: {answer.data['next_test_about']}")

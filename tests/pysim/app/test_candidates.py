@@ -105,9 +105,9 @@ def test_a_tie_comes_with_the_test_that_separates_it_and_its_command(shown: Show
     tab.page.get_by_role("button", name="Find what is missing", disabled=False).click()
     tab.see("Undo mass.friction")  # the page Add
     tab.go("Candidates")
-    tab.see("These data cannot tell mass.friction and mass.bias apart.")
+    tab.see("These data cannot tell mass.friction, mass.bias")
     tied = tab.page.locator(".candidate.tied h3 + .chip").all_text_contents()
-    assert sorted(tied) == ["mass.bias", "mass.friction"]
+    assert {*tied} >= {"mass.bias", "mass.friction"}  # dry friction that also sticks may be a third
     tab.see("It separates mass.friction from mass.bias")
     tab.shot("candidates-tie")
     with tab.page.expect_download() as download:
