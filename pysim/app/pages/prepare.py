@@ -11,7 +11,7 @@ from pysim.app.desk import Desk
 from pysim.app.live import live
 from pysim.app.pages.common import nothing, record_chart
 from pysim.app.pages.data import change
-from pysim.app.parts import Choice, Entry, box, button, card, head, say, text
+from pysim.app.parts import Choice, Entry, box, button, card, head, text
 from pysim.app.records import measured_overlay
 from pysim.io import counted
 from pysim.io.prepare import call, step_of, values_of
@@ -54,6 +54,7 @@ class _View:
         self.log, self.kind = 0, next(iter(_KINDS))
         self._window: tuple[float, float] | None = None
         self._signal, self._number = _ALL, ""
+        self._said: tuple[object, str] = None, ""  # data that were checked with the model, and the answer
 
     def lights(self) -> None:
         """A light per log, and what cures what was found."""
@@ -66,6 +67,7 @@ class _View:
             words = "Name a model, and wait until nothing runs" if off else ""
             with box("row"):
                 button("Check signs and units with the model", self._checked, "small", off=words)
+                text("span", self._said[1] if self._said[0] is self._desk.loaded else "", "small")
             for k, log in enumerate(check.dataset.logs()):
                 found = [one for one in check.findings if one.source == log.source]
                 with box("row").mark(log.source):
@@ -79,7 +81,9 @@ class _View:
     async def _checked(self) -> None:
         await self._desk.check_with_model()
         found = self._desk.check.findings if self._desk.check else ()
-        say(f"Checked: {counted(len(found), 'finding')} below" if found else "Checked: signs and units fit the model")
+        words = f"{counted(len(found), 'finding')} below" if found else "signs and units fit the model"
+        self._said = self._desk.loaded, f"Checked: {words}"
+        self._desk.changed()
 
     def _look_at(self, number: int) -> None:
         self.log, self._window = number, None

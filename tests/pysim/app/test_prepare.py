@@ -153,10 +153,14 @@ def test_a_turned_sign_is_found_with_the_model_and_turned_by_a_click(
     tab.see('1. flip("x")')
     tab.press("Check signs and units with the model")
     tab.page.get_by_text("moves against").wait_for(state="detached")
+    told = tab.page.locator("main").get_by_text("Checked: signs and units fit the model")  # it stays in the page
+    told.wait_for()
     assert (
         np.sign(read_dataset(project.data).logs()[0].data["x"][5:50])
         == pytest.approx(  # type: ignore[index]
             np.sign(plant.logs()[0].data["x"][5:50])  # type: ignore[index]
         )
     )
+    tab.page.get_by_role("button", name="remove step 1").click()
+    told.wait_for(state="detached")  # it was of other data
     assert tab.errors == []
