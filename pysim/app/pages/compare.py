@@ -158,9 +158,8 @@ def _errors(answer: Answer | None) -> dict[int, list[float | None]]:
 
 def _list(view: _View, dataset: Dataset, errors: Mapping[int, list[float | None]], picked: int) -> None:
     logs = dataset.logs()
-    sine = [("offset", "number"), ("amplitude", "number"), ("Hz", "number")]
-    sine = sine if any(log.offset is not None for log in logs) else []
-    columns = [("record", "words"), ("use", "words"), *sine]
+    sine = ("offset", "amplitude", "Hz") if any(log.offset is not None for log in logs) else ()
+    columns = [("record", "words"), ("use", "words"), *((title, "number") for title in sine)]
     count = max((len(one) for one in errors.values()), default=0)
     columns += [("error, refitted" if k == 0 else "error, now", "number") for k in range(count)]
     units = [command_unit(dataset, log.command) if sine else None for log in logs]
@@ -188,7 +187,8 @@ def _bode(desk: Desk, view: _View) -> None:
         return
     tests = answer.base["responses"]
     number = view.response if view.response < len(tests) else 0
-    one, models = tests[number], []
+    one = tests[number]
+    models = []
     for key, words, stage in stage_keys(answer):
         side = stage["responses"][number]["simulated"] if number < len(stage["responses"]) else None
         if side is not None:

@@ -55,8 +55,8 @@ def shell(desk: Desk) -> None:
         seen["help"] = "" if seen["help"] else "open"
 
     ui.on("help", turn)
-    ui.on("undo", partial(_turn, desk, "Undone"))
-    ui.on("redo", partial(_turn, desk, "Redone"))
+    ui.on("undo", partial(_turn, desk, back=True))
+    ui.on("redo", partial(_turn, desk, back=False))
     with box("shell"):
         text("a", "To the page", "skip").props('href="#page"')
         with box("top", "header"):
@@ -80,17 +80,17 @@ def shell(desk: Desk) -> None:
 def _undo(desk: Desk) -> None:
     """Back and forward over all that was chosen."""
     history = desk.history
-    for words, keys, steps, done in (
-        ("↶ Undo", "Ctrl+Z", history.past, "Undone"), ("↷ Redo", "Ctrl+Y", history.future, "Redone"),
+    for words, keys, steps, back in (
+        ("↶ Undo", "Ctrl+Z", history.past, True), ("↷ Redo", "Ctrl+Y", history.future, False),
     ):  # fmt: skip
-        press = button(words, partial(_turn, desk, done), "quiet", off="" if steps else "Nothing to go back to")
+        press = button(words, partial(_turn, desk, back=back), "quiet", off="" if steps else "Nothing to go back to")
         if steps:
             press.props(f'title="{keys}"')
 
 
-async def _turn(desk: Desk, done: str) -> None:
-    if told := await desk.turn_back(desk.history.undo if done == "Undone" else desk.history.redo):
-        say(f"{done}: {told}")
+async def _turn(desk: Desk, *, back: bool) -> None:
+    if told := await desk.turn_back(desk.history.undo if back else desk.history.redo):
+        say(f"{'Undone' if back else 'Redone'}: {told}")
 
 
 def _help(seen: dict[str, str]) -> None:
