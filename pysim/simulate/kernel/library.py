@@ -97,8 +97,7 @@ def address(array: Array) -> int:
     """Where a contiguous array lies in memory."""
     if not array.flags.c_contiguous:
         raise ValueError("the kernel reads arrays item after item: this one is not contiguous")
-    place: int = array.__array_interface__["data"][0]  # a fifth of the time of array.ctypes.data
-    return place
+    return array.ctypes.data  # __array_interface__ would first describe all fields of a job, 0.35 ms
 
 
 @cache
