@@ -130,17 +130,18 @@ def heat_map(
 
 
 def stairs(
-    values: Sequence[float | None], line: Mapping[str, Any], mark: Mapping[str, Any], **more: Any
+    values: Sequence[float | None], line: Mapping[str, Any], mark: Mapping[str, Any], apart: bool = False, **more: Any
 ) -> list[Chart]:
     """A level per step, and a mark in its middle; a gap where there is no value.
 
     Args:
-        line, mark: how both look.
+        line, mark: how both look; apart: levels are not joined.
         more: of both, such as their name; `text` and `hovertemplate` are the mark's.
     """
     told: dict[str, Any] = {key: more.pop(key) for key in ("text", "hovertemplate") if key in more}
-    x = [edge for k in range(len(values)) for edge in (k - 0.5, k + 0.5)]
-    level = {"x": x, "y": [v for v in values for _ in range(2)], "mode": "lines", "hoverinfo": "skip"}
+    gap = (None,) * apart
+    x = [edge for k in range(len(values)) for edge in (k - 0.5, k + 0.5, *gap)]
+    level = {"x": x, "y": [one for v in values for one in (v, v, *gap)], "mode": "lines", "hoverinfo": "skip"}
     middle = {"x": [None, *range(len(values))], "y": [None, *values], "mode": "markers", "marker": mark}
     return [{**level, "line": line, "showlegend": False, **more}, {**middle, "line": line, **more, **told}]
 

@@ -82,7 +82,7 @@ def _branches(desk: Desk) -> None:
         named = desk.project.settings().named
         names = {added: named.get("+".join(added), "") for added in found}
         ends = [one.data["error"][-1] | {"step": names[added] or " + ".join(added)} for added, one in found.items()]
-        figure = error_chart([read_step(s) for s in [*history(first, ())[-1:], *ends]])
+        figure = error_chart([read_step(s) for s in [*history(first, ())[-1:], *ends]], apart=True)
         Chart(figure, f"Error over noise of {len(found)} branch{'es' if len(found) > 1 else ''}", height=300)
         with box("tight"):
             for letter, (added, one) in zip(ascii_uppercase, found.items(), strict=False):

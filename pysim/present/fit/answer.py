@@ -196,11 +196,10 @@ def _records_table(fit: Fit) -> str:
     rows = []
     for record in fit.records:
         for name, value in record.rms.items():
-            kind = "beyond" if value > 1.5 else ""
-            limits = [f"{d.criterion.symbol} {d.value:.2f} {d.criterion.unit}" for d in record.deviations.get(name, ())]
-            texts = (record.dataset, record.source, USES[record.use], name)
-            rows.append([*texts, cell(f"{value:.3f}", kind), "; ".join(limits)])
-    head = ["data set", "record", "use", "signal", "residual / noise", "Table 1.4 (limits 2 % and 10 %)"]
+            errors = [f"{d.criterion.symbol} {d.value:.2f} {d.criterion.unit}" for d in record.deviations.get(name, ())]
+            size = cell(f"{value:.3f}", "beyond" * (value > 1.5))
+            rows.append([record.dataset, record.source, USES[record.use], name, size, "; ".join(errors)])
+    head = ["data set", "record", "use", "signal", "residual / noise", "errors of thesis Table 1.4"]
     return table("Root-mean-square residual over the noise", head, rows, words=range(4))
 
 

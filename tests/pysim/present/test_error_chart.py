@@ -21,6 +21,11 @@ def test_the_staircase_has_every_step() -> None:
     assert 10**low < 0.9 < 64 < 10**high
 
 
+def test_models_side_by_side_are_not_joined() -> None:
+    level = error_chart(STEPS, apart=True)["data"][0]
+    assert [v is None for v in level["y"]] == [v is None for v in level["x"]] == [False, False, True] * 3
+
+
 def test_logs_that_nobody_looked_at_have_a_line_of_their_own() -> None:
     found = error_chart(
         [ErrorStep("prior", 8.0, 7.0, 7.5, {}, True, 1.0), ErrorStep("refit", 4.0, 3.0, 3.5, {}, True, 1.0)]

@@ -63,7 +63,7 @@ def criteria_chart(steps: Sequence[Mapping[str, Any]]) -> Chart:
         colour, mean = _GROUPS[symbol.partition(" ")[0]], symbol.endswith("mean")
         line = {"color": colour, "width": 2.5, "dash": "solid" if mean else "dash"}
         mark = {"color": colour, "size": 8, "symbol": "circle" if mean else "square"}
-        hover = {"text": ["", *told], "hovertemplate": "%{text}<extra></extra>"}
+        hover: dict[str, Any] = {"text": ["", *told], "hovertemplate": "%{text}<extra></extra>"}
         name = one.name.replace(" deviation", "")
         data += stairs(shares, line, mark, legendgroup=symbol, name=name, **hover)
     known = [v for trace in data for v in trace["y"] if v is not None]

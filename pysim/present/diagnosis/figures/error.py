@@ -108,20 +108,17 @@ def _numbers(axes: Axes, i: int, step: ErrorStep) -> None:
     """The largest one's value above its line, the smallest one's below, one between them beside, so that none meet."""
     known = errors(step)
     values = [(known[words], style.COLOURS[k]) for k, words in enumerate(USES.values()) if words in known]
-    places = [
-        ((0, 6), "center", "bottom"),
-        *[((8, 0), "left", "center")] * (len(values) - 2),
-        ((0, -6), "center", "top"),
-    ]
+    beside = [((8, 0), "left", "center")] * (len(values) - 2)
+    places = [((0, 6), "center", "bottom"), *beside, ((0, -6), "center", "top")]
     for (value, colour), (away, ha, va) in zip(sorted(values, reverse=True), places, strict=False):
         style.small_text(axes, size_text(value), (i, value), away, ha=ha, va=va, color=colour)
 
 
-def error_chart(steps: Sequence[ErrorStep]) -> Chart:
+def error_chart(steps: Sequence[ErrorStep], *, apart: bool = False) -> Chart:
     """The error over noise, step by step, of each use of logs.
 
     Args:
-        steps: of the error history.
+        steps: of the error history; the last ones of several histories where they stand `apart`.
     """
     names = [plain(step_name(step.step)) for step in steps]
     found = levels(steps)
@@ -129,7 +126,7 @@ def error_chart(steps: Sequence[ErrorStep]) -> Chart:
     noise = {"xref": "paper", "x": 0.004, "y": math.log10(1.0), "text": "noise alone", "showarrow": False}
     notes.append({**noise, "xanchor": "left", "yanchor": "top", "font": {"size": 11.5, "color": "@quiet"}})
     return chart(
-        [trace for use, values in found.lines.items() for trace in _stairs(use, values)],
+        [trace for use, values in found.lines.items() for trace in _stairs(use, values, apart=apart)],
         xaxis=step_axis(names),
         yaxis=size_axis("Error over noise (–)", found.low, found.high, found.ticks),
         shapes=[level_band(found.low, 1)],
@@ -138,10 +135,11 @@ def error_chart(steps: Sequence[ErrorStep]) -> Chart:
     )
 
 
-def _stairs(use: str, values: Sequence[float | None]) -> list[Chart]:
+def _stairs(use: str, values: Sequence[float | None], *, apart: bool) -> list[Chart]:
     colour, dash, symbol = _LOOKS[use]
     line, mark = {"color": colour, "width": 3, "dash": dash}, {"color": colour, "size": 9, "symbol": symbol}
-    return stairs(values, line, mark, name=use, hovertemplate=f"{use}: %{{y:.3g}} times the noise<extra></extra>")
+    told = f"{use}: %{{y:.3g}} times the noise<extra></extra>"
+    return stairs(values, line, mark, apart=apart, name=use, hovertemplate=told)
 
 
 def _notes(k: int, values: dict[str, float | None]) -> list[dict[str, Any]]:
