@@ -38,20 +38,20 @@ def export_model(
     """
     folder.mkdir(parents=True, exist_ok=True)
     files: dict[str, Path] = {}
+    own = {name: value for name, value in values.items() if not _is_state(model, name)}
     if variants is None:
         files["fmu"] = folder / model.path.name
         if files["fmu"].resolve() != model.path.resolve():
             shutil.copyfile(model.path, files["fmu"])
     else:
         name = _name(variants, effects)
-        own = {name: value for name, value in values.items() if not _is_state(model, name)}
         files |= {"modelica": folder / f"{name}.mo", "fmu": folder / f"{name}.fmu"}
         about = f"{variants.class_name}{' with ' if effects else ''}{', '.join(effect.name for effect in effects)}."
         variants.write(effects, folder, files["fmu"], name, own, about, fmi=fmi, platforms=platforms)
         files |= copied(needed(variants, effects), folder)
-    if values:
+    if own:
         files["parameters"] = folder / PARAMETERS
-        write_file(files["parameters"], parameters_text(f"Of {files['fmu'].stem}.", values))
+        write_file(files["parameters"], parameters_text(f"Of {files['fmu'].stem}.", own))
     return files
 
 

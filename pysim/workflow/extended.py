@@ -6,7 +6,7 @@ import textwrap
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from pysim.io import shown_unit, write_file
+from pysim.io import shown_unit, toml_key, toml_table, write_file
 from pysim.present.diagnosis.words import limits_sentence
 from pysim.present.notes import listed
 from pysim.types import Dataset, Diagnosis, Effect, LearnedLaw
@@ -42,7 +42,7 @@ def write_extended(found: Diagnosis, parts: SessionParts, folder: Path) -> dict[
         files = {"modelica": folder / f"{name}.mo", "fmu": fmu, **copied(needs, folder)}
         about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."
     else:
-        set_ = ", ".join(f"{name} = {value!r}" for name, value in parts.overrides.items())
+        set_ = ", ".join(f"{name} = {float(value)!r}" for name, value in parts.overrides.items())
         held = f"They hold with what was set: {set_}." if set_ else ""
         about = f"{parts.model_name}, refitted to data set {parts.dataset.name}. {held}"
     for k, law in enumerate(law for law in found.learned if law.modelica):
@@ -80,7 +80,7 @@ def parameters_text(about: str, values: Mapping[str, float]) -> str:
     """Lines NAME = VALUE as `--parameters` takes them, below a comment."""
     plain = "".join(c if c.isprintable() else " " for c in about)  # a line break would end the comment
     head = textwrap.wrap(plain, _WIDTH, initial_indent="# ", subsequent_indent="# ")
-    return "\n".join([*head, *(f'"{key}" = {value!r}' for key, value in values.items()), ""])
+    return toml_table("\n".join(head), {toml_key(name): float(value) for name, value in values.items()})
 
 
 def extended_name(base: str, effects: Sequence[str]) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from pysim.identify.greybox import Profile, fit_warnings
-from pysim.io import shown_value
+from pysim.io import shown_value, toml_key, toml_table
 from pysim.present.notes import USES, direction_words, estimate_words, sentences, words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
@@ -87,8 +87,8 @@ def _left_over(fit: Fit) -> list[str]:
 
 def files(result: Fitted) -> dict[str, str]:
     """The fitted values, as `--parameters` takes them."""
-    lines = [f'"{name}" = {value!r}' for name, value in result.fit.values.items() if "@" not in name]
-    return {"parameters.toml": "\n".join([*lines, ""])}
+    values = {toml_key(name): float(value) for name, value in result.fit.values.items() if "@" not in name}
+    return {"parameters.toml": toml_table(f"# Of {result.fit.model}, fitted.", values)}
 
 
 def data(result: Fitted) -> dict[str, Any]:
