@@ -17,6 +17,7 @@ from pysim.cosim.system import Part
 from pysim.types import BadInput, Port
 
 _BLOCK = ("inputs", "outputs", "step", "state", "restore")
+_NUMBERS = float, Real, np.number  # the first is found at once; the others take longer than most controllers
 _ALONE = "u"  # the output of a controller that no wire begins at
 
 # Number of a controller -> its numbers before its last run, and behind it.
@@ -68,13 +69,12 @@ class PlainBlock:
     def step(self, time: float, inputs: Sequence[float]) -> tuple[float, ...]:
         """One sample."""
         given = self.controller.step(time, *inputs)
+        if isinstance(given, _NUMBERS):
+            return (float(given),)
         if isinstance(given, Mapping):
-            missing = [one for one in self._outputs if one not in given]
-            if missing:
+            if missing := [one for one in self._outputs if one not in given]:
                 raise ValueError(f"step returned no {', '.join(missing)}, which a wire asks for")
             return tuple(float(given[one]) for one in self._outputs)
-        if isinstance(given, Real | np.number):
-            return (float(given),)
         return tuple(float(one) for one in given)
 
     def state(self) -> tuple[float, ...]:
@@ -145,8 +145,7 @@ def _with_ports(part: Unwired, wires: Sequence[tuple[str, str]], units: Mapping[
 
 def _outputs(part: Unwired, wires: Sequence[tuple[str, str]]) -> list[str]:
     """Names of what a controller returns: those it lists itself, else those that wires begin with."""
-    listed = getattr(part.controller, "outputs", None)
-    if listed:
+    if listed := getattr(part.controller, "outputs", None):
         return [str(each) for each in listed]
     begun = [source.partition(".")[2] for source, _ in wires if source.partition(".")[0] == part.name]
     return list(dict.fromkeys(begun)) or [_ALONE]
@@ -157,6 +156,10 @@ def step_arguments(name: str, controller: Any) -> list[inspect.Parameter]:
     step = getattr(controller, "step", None)
     if not callable(step):
         raise BadInput(f"{name}: {type(controller).__name__} has no step(t, ...); give an FMU's path or a controller")
+    if not hasattr(controller, "__dict__"):
+        raise BadInput(
+            f"{name}: {type(controller).__name__} has __slots__, so its state cannot be kept; do without them"
+        )
     parameters = list(inspect.signature(step).parameters.values())[1:]
     for one in parameters:
         if one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD, one.KEYWORD_ONLY):
@@ -167,19 +170,19 @@ def step_arguments(name: str, controller: Any) -> list[inspect.Parameter]:
 def _default(name: str, one: inspect.Parameter) -> float | None:
     if one.default is inspect.Parameter.empty:
         return None
-    if not isinstance(one.default, Real | np.number):
+    if not isinstance(one.default, _NUMBERS):
         raise BadInput(f"{name}: the input {one.name} is {one.default!r} by default; give a number")
     return float(one.default)
 
 
 def _size(value: Any) -> int | None:
     """-1 for a number, the count of a row of numbers; None for what is no state."""
-    if isinstance(value, Real | np.number):
+    if isinstance(value, _NUMBERS):
         return -1
     if isinstance(value, np.ndarray):
         return int(value.size) if np.issubdtype(value.dtype, np.number) or value.dtype == bool else None
     if hasattr(value, "__len__") and hasattr(value, "__iter__") and not isinstance(value, str | bytes | Mapping | set):
-        return len(value) if len(value) and all(isinstance(one, Real | np.number) for one in value) else None
+        return len(value) if len(value) and all(isinstance(one, _NUMBERS) for one in value) else None
     return None
 
 
@@ -189,15 +192,11 @@ def _words(size: int | None) -> str:
 
 def _like(old: Any, part: list[float]) -> Any:
     """These numbers in the form of what was there."""
+    kind: Any = type(old)
     if isinstance(old, np.ndarray):
         return np.array(part).reshape(old.shape).astype(old.dtype)
-    if isinstance(old, Real | np.number):
-        return _as(old, part[0])
-    kept = [_as(a, b) for a, b in zip(old, part, strict=True)]
+    if isinstance(old, _NUMBERS):
+        return kind(part[0])
+    kept = [type(a)(b) for a, b in zip(old, part, strict=True)]
     limit = getattr(old, "maxlen", None)
-    return type(old)(kept) if limit is None else type(old)(kept, limit)
-
-
-def _as(old: Any, value: float) -> Any:
-    kind: Any = type(old)
-    return kind(value)
+    return kind(kept) if limit is None else kind(kept, limit)

@@ -66,6 +66,7 @@ def test_units_of_different_kinds_need_a_factor_that_is_known() -> None:
 def test_the_same_unit_takes_any_factor() -> None:
     Connection("a.y", "b.u").check_units("furlong", "furlong")
     Connection("a.y", "b.u", factor=-3.0).check_units("Pa", "Pa")
+    assert Connection("a.y", "b.u", factor=np.int64(2)).gain == 2
 
 
 @pytest.mark.parametrize("factor", [0.0, float("nan"), float("inf")])

@@ -1,6 +1,7 @@
 """A controller that is a plain class: its ports, its units, its state, and the loop it closes."""
 
 from collections import deque
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -106,11 +107,20 @@ class Growing:
         return x
 
 
+@dataclass(slots=True)
+class Slotted:
+    gain: float
+
+    def step(self, t: float, reference: float, measured: float) -> float:
+        return self.gain * (reference - measured)
+
+
 @pytest.mark.parametrize(
     ("members", "more", "said"),
     [
         ({"pi": 3.0}, {}, "no step"),
         ({"pi": type("All", (), {"step": lambda self, t, *rest: 0.0})()}, {}, "name each input"),
+        ({"pi": Slotted(2.0)}, {}, "without them"),
         ({"pi": PI(1.0, 1.0, DT)}, {"wires": {"mass.y": "pi.measured", "pi.u": "mass.F"}}, "mass.y"),
         ({"pi": PI(1.0, 1.0, DT)}, {"inputs": {}}, "reference"),
         ({"pi": PI(1.0, 1.0, 0.3 * DT)}, {}, "whole number"),
