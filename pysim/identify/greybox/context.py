@@ -113,20 +113,33 @@ class Context:
         return bool(np.all(np.ptp(values, axis=0) <= _SETTINGS.still * np.abs(values).max(axis=0)))
 
     @cached_property
+    def _effects(self) -> Array | None:
+        """(n_t, n_y, n_x) of a small change of each state, as a share of the largest; None if not simulated."""
+        found = self._left_alone
+        if found is None or found.record.outcome is not Outcome.DONE or not np.isfinite(found.by_offset).all():
+            return None
+        effect = found.by_offset * np.array([abs(self.model[n].nominal or 1.0) for n in self.model.abilities.states])
+        largest = np.max(np.abs(effect), axis=(0, 2))[:, None]
+        return effect / np.where(largest > 0, largest, 1.0)
+
+    @cached_property
     def settling(self) -> float:
         """Settling time in s: when a small change of any state has faded from the compared outputs; at most `longest`.
 
         For the nominal parameters and start values. A change that stays, as of the position behind an integrator, does
         not count. `longest` if the model cannot be simulated."""
-        found = self._left_alone
-        if found is None:
-            return 0.0
-        times = found.record.time
-        if found.record.outcome is not Outcome.DONE or not np.isfinite(found.by_offset).all():
-            return self.longest
-        nominal = np.array([abs(self.model[name].nominal or 1.0) for name in self.model.abilities.states])
-        effect = found.by_offset * nominal
-        away = np.abs(effect - effect[-1])
-        largest = np.max(np.abs(effect), axis=(0, 2))[:, None]  # of any state
-        moving = np.flatnonzero(np.any(away > _SETTINGS.settled * largest, axis=(1, 2)))
+        found, effect = self._left_alone, self._effects
+        if found is None or effect is None:
+            return 0.0 if found is None else self.longest
+        times, away = found.record.time, np.abs(effect - effect[-1])
+        moving = np.flatnonzero(np.any(away > _SETTINGS.settled, axis=(1, 2)))
         return float(times[min(moving[-1] + 1, times.size - 1)]) if moving.size else float(times[0])
+
+    @cached_property
+    def integrates(self) -> bool:
+        """Whether more of a small change of some state stays in a compared output than fades, as of a position behind
+        an integrator. Such a plant may stand anywhere, and moves on at inputs at which others come to rest."""
+        if self._effects is None:
+            return False
+        effect, stays = np.abs(self._effects).max(axis=0), np.abs(self._effects[-1])
+        return bool(np.any((stays > effect - stays) & (effect > _SETTINGS.settled)))

@@ -70,9 +70,11 @@ def _of_log(
     own = np.array([levels[one.dataset, name] for name in one.channels])
     rows = table.rows / own[table.channel][:, None]
     by_x, by_state = rows[:, 1 : 1 + n], rows[:, 1 + n :]
-    u, sigma, vt = np.linalg.svd(by_state, full_matrices=False)
+    size = np.linalg.norm(by_state, axis=0)
+    size[size == 0] = 1.0
+    u, sigma, vt = np.linalg.svd(by_state / size, full_matrices=False)
     held = sigma > EXACT * sigma[0]
-    inverse = (vt[held].T / sigma[held]) @ u[:, held].T
+    inverse = (vt[held].T / sigma[held]) @ u[:, held].T / size[:, None]
     begins = first.simulated[0]
     follow = begins.slopes[0] - begins.by_initial[0] @ inverse @ by_x
     back = begins.by_initial[0] @ inverse  # (n_s, n_r) derivative of the states by the residual's rows

@@ -167,7 +167,7 @@ def time_logs(context: Context, records: Sequence[tuple[int, MeasuredRecord]]) -
     """The observations of logs over time, given as index and record, with the priors of their initial states."""
     logs = [_log(context, record, index) for index, record in records]
     known = [_initial(context, record) for _, record in records]
-    free = [i for i, one in enumerate(known) if one != "rest"]
+    free = [i for i, one in enumerate(known) if one not in ("model", "rest")]
     ranges = _state_ranges(context, [logs[i].run.experiment for i in free])
     for i, spread in zip(free, ranges, strict=True):
         unknown = known[i] == "estimate"  # also of states that no input moves, such as a mass that is released
@@ -178,23 +178,25 @@ def time_logs(context: Context, records: Sequence[tuple[int, MeasuredRecord]]) -
 
 
 def _initial(context: Context, record: MeasuredRecord) -> str:
-    """What is known of the plant's state at a log's first sample; "rest" if the model's start values hold."""
-    started = record.initial == "model" or record.source in context.started or None in context.started
-    return "rest" if started else record.initial or context.treatment.initial
+    """What is known of the plant's state at a log's first sample; "model" if the model's start values hold."""
+    if record.initial == "model" or record.source in context.started or None in context.started:
+        return "model"
+    usual = context.treatment.initial
+    return record.initial or ("estimate" if usual == "near rest" and context.integrates else usual)
 
 
 def _log(context: Context, record: MeasuredRecord, index: int) -> TimeLog:
     columns, outputs = context.columns(record)
     data = record.data
     assert isinstance(data, Record)
-    measured, start, rest = kept_columns(data, outputs), float(data.time[0]), context.treatment.rest
+    measured, start, initial = kept_columns(data, outputs), float(data.time[0]), _initial(context, record)
+    rest = None if initial == "model" or (initial == "estimate" and context.integrates) else context.treatment.rest
     later = 0.0 if record.begin is None else record.begin - start
     commands, begin = {}, start
-    started = record.initial == "model" or record.source in context.started or None in context.started
     own_start = context.first_value
     for column in columns:
         name, signal = context.variable(column), logged_command(record, column, context.dataset.signal(column).hold)
-        if rest is not None and not started and (context.still or signal.value(np.array(start)) != own_start(name)):
+        if rest is not None and (context.still or signal.value(np.array(start)) != own_start(name)):
             signal, first = from_rest(signal, start, own_start(name), rest.times(context.settling))
             begin = min(begin, first)
         commands[name] = signal
