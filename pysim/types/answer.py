@@ -416,7 +416,12 @@ class Diagnosis:
         """The first effect's name; UNKNOWN where only a learned law, or nothing, explains the rest; else NONE."""
         if self.effects:
             return self.effects[0].effect.name
-        return NONE if self.complete and not self.learned else UNKNOWN
+        return NONE if self.all_named else UNKNOWN
+
+    @property
+    def all_named(self) -> bool:
+        """Whether nothing but noise is left and nothing is without a name, as the cause of a learned law is."""
+        return self.complete and not self.learned
 
     @property
     def laws(self) -> tuple[LearnedLaw, ...]:

@@ -26,7 +26,7 @@ def answer_data(diagnosis: Diagnosis, files: Mapping[str, str] | None = None) ->
     last = diagnosis.history[-1] if diagnosis.history else None
     answer = {
         "verdict": diagnosis.verdict,
-        "complete": diagnosis.complete and not diagnosis.learned,  # a law's cause has no name yet
+        "complete": diagnosis.all_named,
         "added": [_effect(one) for one in diagnosis.effects],
         "ranking": [_rival(one) for one in diagnosis.rivals],
         "confusable": diagnosis.ties,

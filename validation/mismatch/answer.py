@@ -30,4 +30,4 @@ def answer(task: Task) -> Answer:
     """Diagnose a task without the logs that are withheld."""
     found = task.subject.whole(diagnose(task.subject.session(task.given)))
     names, laws = tuple(one.effect.name for one in found.effects), tuple(law.slot for law in found.learned)
-    return Answer(names, found.complete and not found.learned, steps_of(found, task.subject), laws)
+    return Answer(names, found.all_named, steps_of(found, task.subject), laws)

@@ -56,8 +56,7 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
         return " ".join([*(laws or ["Something is missing."]), tried, _left(diagnosis)])
     names = [_named(one) for one in diagnosis.effects]
     count = "an effect" if len(names) == 1 else f"{len(names)} effects"
-    whole = diagnosis.complete and not diagnosis.learned
-    more = [_rest(diagnosis)] if whole else ["More is missing than that.", *laws, _left(diagnosis)]
+    more = [_rest(diagnosis)] if diagnosis.all_named else ["More is missing than that.", *laws, _left(diagnosis)]
     lacks = f"The model lacks {count}: {listed(names)}." if diagnosis.rivals else _asked(diagnosis)
     return " ".join(filter(None, [lacks, _tie(diagnosis), _fall(diagnosis), *more]))
 

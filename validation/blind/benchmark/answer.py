@@ -139,7 +139,7 @@ def _said(found: Diagnosis) -> dict[str, Any]:
         "learned": tuple(law.slot for law in found.learned),
         "second": tuple(dict.fromkeys(beside_base))[:2],
         "ties": found.ties,
-        "complete": found.complete and not found.learned,
+        "complete": found.all_named,
     }
 
 
