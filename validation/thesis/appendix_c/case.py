@@ -52,8 +52,8 @@ def run() -> Iterator[Finding]:
     for model, table in ((free, "4.8"), (locked, "4.7")):
         other = [row for row in differences(model, table) if row.passes != row.printed_passes]
         yield Finding(
-            f"{model.label} model: {len(other)} of 18 verdicts differ from Table {table}; in numbers that the misfit of "
-            "Table 4.4 does not explain",
+            f"{model.label} model: {len(other)} of 18 verdicts differ from Table {table}; in numbers that the misfit "
+            "of Table 4.4 does not explain",
             float(sum(not row.explained for row in other)),
             0,
             "",
