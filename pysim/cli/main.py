@@ -6,12 +6,13 @@ import argparse
 import contextlib
 import os
 import pkgutil
+import re
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from importlib import import_module
-from typing import NoReturn
+from typing import Any, NoReturn
 
 from pysim.cli.command import NO, OUR_BUG, WRONG_USE, Command
 from pysim.cli.option import did_you_mean
@@ -37,15 +38,20 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     print_everything()
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")  # NumPy comes later; its threads spin where runs are simulated
-    words = list(sys.argv[1:] if argv is None else argv)
+    with contextlib.redirect_stdout(Outlet(sys.stdout)) as outlet:
+        code = _run(list(sys.argv[1:] if argv is None else argv))
+        outlet.flush()
+    return code if outlet.error is None else outlet.ended(code)
+
+
+def _run(words: list[str]) -> int:
     try:
         parser = argument_parser(words[0] if words else "")
-        args = parser.parse_args(words)
+        return _guarded(parser.parse_args(words))
     except SystemExit as end:  # argparse has said what is wrong, or shown the help
         return int(end.code or 0)
     except KeyboardInterrupt as stop:  # some options load libraries to say what they take
         return _stopped(stop)
-    return _guarded(args)
 
 
 def print_everything() -> None:
@@ -58,8 +64,48 @@ def print_everything() -> None:
             reconfigure(errors="replace")
 
 
+class Outlet:
+    """Standard output. Where it is closed or full, or nobody reads it any more, the command still writes its files."""
+
+    error: OSError | None = None
+
+    def __init__(self, stream: Any) -> None:
+        self._stream = stream
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._stream, name)
+
+    def write(self, text: str) -> int:
+        """Print, or keep the error."""
+        self._tried(self._stream.write, text)
+        return len(text)
+
+    def flush(self) -> None:
+        """Print what waits, or keep the error."""
+        self._tried(self._stream.flush)
+
+    def _tried(self, do: Callable[..., object], *args: str) -> None:
+        try:
+            do(*args)
+        except OSError as error:
+            self.error = error
+
+    def ended(self, code: int) -> int:
+        """The exit code of a command whose output was lost; `pysim ... | head` has seen enough."""
+        with contextlib.suppress(OSError, ValueError):  # what waits goes nowhere, or Python would complain at its end
+            os.dup2(os.open(os.devnull, os.O_WRONLY), self.fileno())
+        if isinstance(self.error, BrokenPipeError):
+            return code
+        print(f"pysim: standard output: {self.error}; send it to another place", file=sys.stderr)
+        return max(code, WRONG_USE)
+
+
 class Parser(argparse.ArgumentParser):
-    """One that names what is near where a word is not known."""
+    """One that names what is near where a word is not known, and takes `-1e-9,2` for a value."""
+
+    def __init__(self, *args: Any, **more: Any) -> None:
+        super().__init__(*args, **more)
+        self._negative_number_matcher = re.compile(r"-\.?\d")  # that of argparse knows -1 and -.5 only
 
     def parse_known_args(self, args=None, namespace=None):  # type: ignore[no-untyped-def] # as argparse has it
         known = [flag for action in self._actions for flag in action.option_strings if flag.startswith("--")]
@@ -112,12 +158,7 @@ def argument_parser(command: str = "") -> argparse.ArgumentParser:
 
 def _guarded(args: argparse.Namespace) -> int:
     try:
-        code = registry()[args.command].execute(args)
-        sys.stdout.flush()  # here, where a reader that went away can still be dealt with
-        return code
-    except BrokenPipeError:  # `pysim ... | head` has seen enough
-        _silence()
-        return WRONG_USE
+        return registry()[args.command].execute(args)
     except KeyboardInterrupt as stop:
         return _stopped(stop)
     except Exception as error:
@@ -135,12 +176,6 @@ def _stopped(stop: KeyboardInterrupt) -> int:
     """A command that can be gone on with says how."""
     print(f"pysim: stopped{f'; {stop}' if str(stop) else ''}", file=sys.stderr)
     return WRONG_USE
-
-
-def _silence() -> None:
-    """Send what is still to be printed nowhere, or Python would complain when it ends."""
-    with contextlib.suppress(OSError, ValueError):  # a standard output that has no file behind it
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _answer(error: Exception) -> int:

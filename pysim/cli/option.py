@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import difflib
+import math
 import re
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -95,7 +96,7 @@ class Option:
             return text, self.convert(text)
         except ValueError:
             comma = f"; write a point in place of the comma: {text.replace(',', '.')}" if "," in text else ""
-            kind = {float: "number", int: "whole number"}.get(self.convert, "value")  # type: ignore[call-overload]
+            kind = "whole number" if self.convert is int else "number"
             raise argparse.ArgumentTypeError(f"{text!r} is no {kind}{comma}") from None
 
     def value(self, parsed: Any) -> Any:
@@ -142,6 +143,14 @@ def number(
 ) -> Option:
     """An option of a number; a whole one with `convert=int`."""
     return Option((flag,), about, metavar, default=default, convert=convert, **more)
+
+
+def positive(text: str) -> float:
+    """A finite number above 0."""
+    value = float(text)
+    if not 0 < value < math.inf:
+        raise argparse.ArgumentTypeError(f"{text} is not above 0; give a positive number")
+    return value
 
 
 def choice(

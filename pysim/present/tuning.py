@@ -6,7 +6,7 @@ The figure has open and closed loop over frequency as in thesis Figures 6.1 and 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -32,10 +32,12 @@ if TYPE_CHECKING:
 
 _STEPS = 40  # of the sampled controller, at least, in the right column
 _POINTS = 400  # at least, of a curve there
+_MOST = 50_000  # steps of the sampled controller there, some seconds of work
 _PICTURE = 4.0  # steps of the reference; an answer that grows beyond is cut off
 _METHOD = (
     "The controller is K_p (1 + 1/(T_i s)), thesis Eq. 5.32. Phase margin and crossover fix both of its numbers.",
-    "Margins count the plant's dead time, if it was given one; the steps over time are the sampled controller's.",
+    "Margins count the plant's dead time, if it was given one; the steps over time are the sampled controller's. A "
+    f"loop that needs more than {_MOST:,} of its samples is drawn with a longer sampling time.",
     "The maximum of sensitivity tells how much the loop amplifies a disturbance at the worst frequency; 1.5 to 2 is "
     "usual.",
 )
@@ -136,7 +138,7 @@ def tuning_figure(loops: Mapping[str, Gains], *, dt: float) -> Figure:
     for k, (label, gains) in enumerate(loops.items()):
         own = look(k, "linestyle")
         handles[label] = _draw_frequency(axes, gains, hertz, own)
-        _draw_time(axes[:, 2], gains, dt, _stop(loops, dt), own)
+        _draw_time(axes[:, 2], gains, dt, _stop(loops.values(), dt), own)
     _label(axes, hertz)
     legend_above(figure, list(handles.values()), list(handles))
     return figure
@@ -150,9 +152,9 @@ def _range(loops: Mapping[str, Gains]) -> Array:
     return np.asarray(np.geomspace(low, high, 4000) / (2 * np.pi), dtype=np.float64)
 
 
-def _stop(loops: Mapping[str, Gains], dt: float) -> float:
+def _stop(loops: Iterable[Gains], dt: float) -> float:
     """s, until the slowest loop that comes to rest has done so, and the sampled controller has shown what it does."""
-    slowest = min((g.loop.crossovers.min() for g in loops.values() if g.loop.crossovers.size), default=1.0)
+    slowest = min((g.loop.crossovers.min() for g in loops if g.loop.crossovers.size), default=1.0)
     return float(max(7 / slowest, _STEPS * dt))
 
 
@@ -173,6 +175,8 @@ def _draw_frequency(axes: NDArray[np.object_], gains: Gains, hertz: Array, own: 
 def _draw_time(axes: NDArray[np.object_], gains: Gains, dt: float, stop: float, own: Mapping[str, Any]) -> None:
     if not gains.loop.stable:
         return
+    stop = min(stop, max(_stop([gains], dt), _MOST * dt))
+    dt = max(dt, stop / _MOST)
     parts = math.ceil(dt * _POINTS / stop)
     answer = partial(loop_response, gains.plant, gains.K_p, gains.T_i, dt=dt, stop=stop, parts=parts)
     step, hit = answer(), answer(reference=0.0, disturbance=1.0)

@@ -71,7 +71,7 @@ COMMAND = Command(
         switch("--stable", "allow stable poles only"),
         choice("--weights", "", ("covariance", "uniform", "relative"), _WEIGHTS),
         choice("--orders", None, ("suggest",), "compare all structures up to --poles and take the best"),
-        text("--test", "O/A", "only this offset/amplitude, as --test=-25/10; repeat", repeated=True, convert=_test),
+        text("--test", "O/A", "only this offset/amplitude, as -25/10; repeat", repeated=True, convert=_test),
         SIGNAL,
         JSON,
         OUTPUT,

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import math
 import sys
 import time
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pysim.cli.command import DONE, Command, Given
-from pysim.cli.option import Option, Role, file, number
+from pysim.cli.option import Option, Role, file, number, positive
 from pysim.cli.options import JSON, OUTPUT
 
 if TYPE_CHECKING:
@@ -21,12 +20,7 @@ if TYPE_CHECKING:
 def run(given: Given) -> CoSimulation | int:
     """The system's run; or with --export-ssp its package, and no run."""
     from pysim.present.cosim import CoSimulation
-    from pysim.types import BadInput
 
-    for option in ("stop", "step"):
-        value = given.typed[option]
-        if value is not None and not 0 < value < math.inf:
-            raise BadInput(f"--{option} {value:g}: give a positive number of seconds")
     system = _read(given)
     if given.export_ssp:
         return _export(given, system)
@@ -109,8 +103,8 @@ COMMAND = Command(
     run,
     options=(
         Option(("SYSTEM",), "file that describes members, wires and run", "FILE.toml|FILE.ssp", convert=Path),
-        number("--stop", "SECONDS", None, "end of the run (the file's own)"),
-        number("--step", "SECONDS", None, "communication step (the file's own)"),
+        number("--stop", "SECONDS", None, "end of the run (the file's own)", convert=positive),
+        number("--step", "SECONDS", None, "communication step (the file's own)", convert=positive),
         file("--export-ssp", "FILE.ssp", "write FMUs and wires as an SSP package, without a run", role=Role.VALUE),
         JSON,
         OUTPUT,

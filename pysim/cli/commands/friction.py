@@ -7,7 +7,7 @@ import math
 from typing import TYPE_CHECKING
 
 from pysim.cli.command import Command, Given
-from pysim.cli.option import number, text
+from pysim.cli.option import number, positive, text
 from pysim.cli.options import DATASET, JSON, OUTPUT
 
 if TYPE_CHECKING:
@@ -20,15 +20,16 @@ def run(given: Given) -> Friction:
     from pysim.present.friction import Friction
     from pysim.types import BadInput
 
-    inertia, cutoff_hz = given.inertia, given.cutoff_hz
+    inertia = given.inertia
     if not (math.isfinite(inertia) and inertia >= 0):
         raise BadInput(f"--inertia {inertia}: write the moment of inertia in kg.m2, 0 or above")
     columns = ShaftColumns(given.speed, given.supply, given.load, given.supply_gain, given.load_gain)
     tests, name = shaft_tests(given.dataset, columns), str(given.typed["dataset"])
+    cutoff = {"cutoff_hz": given.cutoff_hz} if given.cutoff_hz else {}
     try:
-        filtered = [filtered_samples(test, inertia, cutoff_hz=cutoff_hz) for test in tests]
-    except BadInput:  # an uneven log does without the filter where there are pulses
-        if given.pulses is None:
+        filtered = [filtered_samples(test, inertia, **cutoff) for test in tests]
+    except BadInput:  # where there are pulses, an uneven log does without the filter that nobody asked for
+        if given.pulses is None or cutoff:
             raise
         filtered = []
     if given.pulses is None:
@@ -60,7 +61,7 @@ COMMAND = Command(
         number("--load-gain", "K", 1.0, "torque per pressure, m3/rad"),
         number("--inertia", "J", None, "inertia of motors and shaft, kg.m2", required=True),
         number("--pulses", "N", 10, "pulses per revolution; none for a continuous speed", convert=_pulses),
-        number("--cutoff-hz", "HZ", 5.0, "cutoff of the zero-phase filter, with --pulses none"),
+        number("--cutoff-hz", "HZ", None, "cutoff of the zero-phase filter (5)", convert=positive),
         JSON,
         OUTPUT,
     ),

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from pysim.cli.command import Command, Given
-from pysim.cli.option import argument, number, text
+from pysim.cli.option import argument, number, positive, text
 from pysim.cli.options import JSON, OUTPUT
 
 if TYPE_CHECKING:
@@ -18,10 +18,7 @@ def run(given: Given) -> Tuning:
     """The gains that were asked for, with the thesis' and the user's own beside them."""
     from pysim.control.tuning import TABLE_6_1, known_pi
     from pysim.present.tuning import Tuning
-    from pysim.types import BadInput
 
-    if not 0 < given.dt < math.inf:
-        raise BadInput(f"--dt {given.dt:g}: give a positive number of seconds")
     plant = _plant(given)
     loops = {"tuned": _tuned(given, plant)}
     for label, (K_p, T_i) in TABLE_6_1.get(given.plant, {}).items():
@@ -80,7 +77,7 @@ COMMAND = Command(
         number("--crossover", "HZ", None, "crossover (the fastest that keeps the margins)"),
         number("--gain-margin", "DB", 6.0, "gain margin to keep without --crossover"),
         text("--gains", "K_P,T_I", "gains of yours, for comparison", repeated=True),
-        number("--dt", "SECONDS", 1e-3, "sampling time of the controller"),
+        number("--dt", "SECONDS", 1e-3, "sampling time of the controller", convert=positive),
         JSON,
         OUTPUT,
     ),

@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 
 _TIMES = 400  # integration times that are tried
 _ALIKE = 0.99  # of the largest K_p/T_i: as fast
+_SHARES = np.linspace(1.0, _ALIKE, 11)  # of the gain that the frequencies of the grid allow
 _ON_AXIS = 1e-6  # of a root's size: further on the right than that it is unstable, and not rounded
 
 
@@ -81,9 +82,8 @@ def tune_pi(plant: Plant, *, crossover: float, phase_margin: float) -> Gains:
         )
     phi = phase_margin - most
     K_p = math.cos(phi) / abs(plant.response(np.array([crossover]))[0])
-    sign = 1.0 if _steady_sign(plant) > 0 else -1.0
     T_i = -1 / (crossover * math.tan(phi))
-    return known_pi(plant, sign * K_p, T_i)
+    return known_pi(plant, _steady_sign(plant) * K_p, T_i)
 
 
 def fastest_pi(plant: Plant, *, phase_margin: float, gain_margin: float = 2.0) -> Gains:
@@ -94,7 +94,7 @@ def fastest_pi(plant: Plant, *, phase_margin: float, gain_margin: float = 2.0) -
     lowest frequencies of a plant with an integrator, where |L| has to be above 1.
 
     Where an integral alone is as fast as any (a plant that is quick beside its resonance), all short T_i with the same
-    K_p/T_i are alike; of those within a hundredth the longest is taken.
+    K_p/T_i are alike; of those within a hundredth the longest is taken. Both gains have four digits.
 
     Args:
         plant: without poles to the right.
@@ -119,16 +119,16 @@ def fastest_pi(plant: Plant, *, phase_margin: float, gain_margin: float = 2.0) -
         loop, turned = response * (T_i + 1 / (1j * omega)), phase + np.arctan(omega * T_i) - math.pi / 2
         integrals.append(_largest_integral(loop, turned, phase_margin, gain_margin))
     best = int(np.argmax(integrals))
-    if integrals[best] == 0.0:
-        raise BadInput(f"{plant.name}: no gain keeps these margins; ask for smaller ones")
     if integrals[best] == math.inf:
         raise BadInput(f"{plant.name}: nothing limits the gain; add the dead time of the loop (delay)")
     alike = np.array(integrals) > _ALIKE * integrals[best]
     if alike[0]:  # an integral alone is as fast: of all that are, the one with the most phase
         best = int(np.argmin(alike)) - 1
-    T_i = float(steps[best])
-    K_p = float(integrals[best]) * T_i * _steady_sign(plant)
-    return known_pi(plant, K_p, T_i)
+    for gain in _SHARES * integrals[best] * steps[best] * _steady_sign(plant) if integrals[best] else ():
+        found = known_pi(plant, float(f"{gain:.3e}"), float(f"{steps[best]:.3e}"))
+        if found.loop.stable and found.loop.phase_margin >= phase_margin and found.loop.gain_margin >= gain_margin:
+            return found
+    raise BadInput(f"{plant.name}: no gain keeps these margins; ask for smaller ones")
 
 
 def _largest_integral(loop: NDArray[np.complex128], phase: Array, phase_margin: float, gain_margin: float) -> float:

@@ -56,7 +56,7 @@ def test_a_run_that_stops_early_is_told_and_kept(folder: Path, tmp_path: Path) -
     ("words", "named"),
     [
         (["none.toml"], ["none.toml"]),
-        (["controlled.toml", "--step", "0"], ["--step 0", "give a positive number"]),
+        (["controlled.toml", "--step", "0"], ["--step: 0", "give a positive number"]),
         (["controlled.toml", "--step", "0.008"], ["controlled.toml", "every = 0.01 s is no whole number"]),
         (["controlled.toml", "--export-ssp", "a.zip"], ["--export-ssp a.zip", ".ssp"]),
         (["controlled.toml", "--export-ssp", "a.ssp"], ["cannot hold controller", "fmus_only=True"]),

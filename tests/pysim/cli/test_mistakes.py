@@ -155,7 +155,7 @@ MISTAKES = [
     (["model", "nowhere.fmu"], ["nowhere.fmu"]),
     (["rig", "step", "--dt", "1"], ["--dt 1", "less than 0.1"]),
     (["cosim", "nowhere.toml"], ["nowhere.toml"]),
-    (["cosim", "list.toml", "--stop", "-1"], ["--stop -1", "positive number"]),
+    (["cosim", "list.toml", "--stop", "-1"], ["--stop: -1", "positive number"]),
     (["bench", "Axis", "--plan", "bench-01"], ["--output", "--seed"]),
     (["tune", "own", "--numerator", "1;2", "--denominator", "1,1"], ["--numerator 1;2"]),
     (BENCH, ["--output mine", "choose a new folder"]),

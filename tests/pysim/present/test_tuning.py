@@ -101,6 +101,17 @@ def test_a_loop_far_too_fast_for_its_sampling_is_drawn_readably(dt: float) -> No
     assert -5 < low < high < 5
 
 
+def test_a_slow_loop_beside_a_fast_one_is_drawn_until_it_rests_in_so_many_steps_as_can_be_waited_for() -> None:
+    """5 Hz and 1 uHz on a lag of 0.1 s: at 1 ms the slow one takes a thousand million steps."""
+    plant = Plant((1.0,), (0.1, 1.0))
+    loops = {f"{hz} Hz": known_pi(plant, 0.2 * math.pi * hz, 0.1) for hz in (5.0, 1e-6)}
+    for line, whole in zip(tuning_figure(loops, dt=1e-3).axes[2].lines, (False, True), strict=True):
+        time, step = (np.asarray(x) for x in line.get_data())
+        assert time.size < 200_000
+        assert (time[-1] > 1e6) == whole
+        assert step[-1] == pytest.approx(1.0, abs=0.01)
+
+
 def test_nothing_to_draw_is_refused() -> None:
     with pytest.raises(BadInput, match="at least one loop"):
         tuning_figure({}, dt=1e-3)

@@ -98,9 +98,11 @@ def test_no_pi_controller_holds_two_integrators() -> None:
 @pytest.mark.parametrize("plant", [load_pressure_plant(), load_pressure_plant().delayed(0.01), shaft_speed_plant()])
 def test_fastest_keeps_its_margins_and_more_would_not(plant: Plant) -> None:
     found = fastest_pi(plant, phase_margin=math.radians(60), gain_margin=3.0)
-    assert found.loop.stable
-    assert found.loop.phase_margin >= math.radians(60) - 1e-2
-    assert found.loop.gain_margin >= 3.0 * (1 - 1e-2)
+    typed = known_pi(plant, float(f"{found.K_p:.4g}"), float(f"{found.T_i:.4g}"))  # as the table prints them
+    for loop in (found.loop, typed.loop):
+        assert loop.stable
+        assert loop.phase_margin >= math.radians(60)
+        assert loop.gain_margin >= 3.0
     more = known_pi(plant, 1.05 * found.K_p, found.T_i)
     assert more.loop.phase_margin < math.radians(60) or more.loop.gain_margin < 3.0
 
@@ -115,7 +117,7 @@ def test_fastest_of_two_integrators_with_a_lead() -> None:
     """(s + 1)/s^2 behind a dead time: antiphase at the lowest frequencies, where the gain is high, does not count."""
     found = fastest_pi(Plant((1.0, 1.0), (1.0, 0.0, 0.0), delay=0.01), phase_margin=math.radians(60))
     assert found.loop.stable
-    assert found.loop.phase_margin >= math.radians(60) - 1e-2
+    assert found.loop.phase_margin >= math.radians(60)
 
 
 def test_an_integral_has_a_time_that_can_be_built() -> None:
@@ -125,7 +127,7 @@ def test_an_integral_has_a_time_that_can_be_built() -> None:
     alone = known_pi(found.plant, 1e-4 * found.K_p, 1e-4 * found.T_i)
     assert found.integral == pytest.approx(alone.integral)
     assert found.loop.crossover == pytest.approx(alone.loop.crossover, rel=1e-3)
-    assert found.loop.gain_margin >= 1.999
+    assert found.loop.gain_margin >= 2.0
 
 
 def test_fastest_needs_a_limit_and_a_stable_plant() -> None:
