@@ -12,7 +12,7 @@ from pysim.io.load.clock import TIME_NAMES, rises
 from pysim.io.load.headings import name_and_unit
 from pysim.io.load.moments import looks_like_moment
 from pysim.io.thesis_folder import LOG_SUFFIXES, read_thesis_folder
-from pysim.types import SECONDS, UNITS, BadInput, MeasuredRecord, MeasuredSignal
+from pysim.types import SECONDS, SYNONYMS, UNITS, BadInput, MeasuredRecord, MeasuredSignal
 
 LEFT_OUT = "-"  # in place of the name of a column that nobody needs, or that holds no numbers
 OPEN = "?"  # in place of a unit that nobody told; refused until it is filled in
@@ -107,7 +107,7 @@ def _take_clock(found: Draft, path: Path, clock: Column) -> None:
         told = f"{_source(found, path)} heads it {clock.heading!r}"
         found.remarks.append(f"time: taken for s, though {told}; say time_unit")
         return
-    found.clocks.setdefault(clock.unit, _source(found, path))
+    found.clocks.setdefault(SYNONYMS.get(clock.unit, clock.unit), _source(found, path))
     if len(found.clocks) > 1:
         told = ", ".join(f"{one} in {where}" for one, where in found.clocks.items())
         raise BadInput(f"{found.folder}: times are in {told}; put logs of one unit of time into a folder of their own")

@@ -55,7 +55,7 @@ def load_logs(
             to them: signal -> heading.
         time: heading of the clock; without it, that is looked for.
         units: signal (or heading) -> unit, where no heading tells one; of a clock of dates also how they are written,
-            as of `datetime.strptime`.
+            "day/month/year" or as of `datetime.strptime`.
         noise: signal -> standard deviation of its noise, in its unit.
         variables: signal -> variable of the model, where that is called otherwise.
         hold: input -> how it runs between samples, "zero", "linear" or "spline".
