@@ -144,11 +144,8 @@ def _seconds(table: RawTable, heading: str, units: Mapping[str, str]) -> tuple[A
     moments = moments_of(cells, f"{table.place}, {heading}", form)
     if moments is not None:
         first = moments.values[0]
-        if np.isnat(first):
-            return np.full(cells.size, np.nan), None, ""
-        away = np.where(np.isnat(moments.values), np.nan, (moments.values - first) / _NS)
         begin = float((first - np.datetime64(0, "ns")) / _NS) * 1e-9 if moments.dated else None
-        return 1e-9 * away, begin, moments.remark or remark
+        return 1e-9 * ((moments.values - first) / _NS), begin, moments.remark or remark
     day = seconds_of_day(cells)
     if day is not None:
         return day - day[0], None, remark

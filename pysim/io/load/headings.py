@@ -71,5 +71,5 @@ def unit_of(table: RawTable, heading: str, name: str, units: Mapping[str, str]) 
     written = table.units.get(heading) or written
     given = next((units[one] for one in (name, heading, short) if one in units), "")
     if given and written and given != written:
-        return given, f"{name}: taken in {given} as you say, though {table.place} says {written}"
+        return given, f"unit of {name}: {given} as you say, though {table.place} says {written}"
     return given or written, ""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from datetime import UTC, date, datetime, time, timedelta, timezone, tzinfo
 from typing import Any
@@ -117,10 +118,8 @@ def _empty(cell: object) -> bool:
 
 
 def _utc(moment: datetime | None) -> np.datetime64:
-    """Without its zone."""
-    if moment is None:
-        return np.datetime64("NaT")
-    if moment.tzinfo is not None:
+    """Without its zone; NaT for None."""
+    if moment is not None and moment.tzinfo is not None:
         moment = moment.astimezone(UTC).replace(tzinfo=None)
     return np.datetime64(moment)
 
@@ -149,21 +148,19 @@ def _order(found: Sequence[re.Match[str]], where: str) -> tuple[str, str, bool]:
     best = [order for order, misfit in zip(orders, misfits, strict=True) if misfit == min(misfits)]
     if len(best) == 1 or dots:
         one_fits = sum(misfit[0] == min(misfits)[0] for misfit in misfits) == 1
-        return best[0], "" if one_fits else f"time: {text!r} is taken as {best[0]}", True
+        return best[0], "" if one_fits else f"date: {text!r} is taken as {best[0]}", True
     asked, cure = " or ".join(best), f'Say it in units: "{best[-1]}" as the unit of that column'
     if len(days) > 1:
         raise BadInput(f"{where}: is {text!r} {asked}? {cure}")
-    return best[0], f"time: is {text!r} {asked}? Until that is known, so is when the log began. {cure}", False
+    return best[0], f"date: is {text!r} {asked}? Until that is known, so is when the log began. {cure}", False
 
 
 def _misfit(days: Sequence[tuple[str, ...]], order: str) -> tuple[int, bool, bool]:
     """How many dates no calendar has in that order, whether any is ahead of the one before, or not the day behind."""
     own = []
     for day in days:
-        try:
+        with suppress(ValueError):
             own.append(_date(day, order).toordinal())
-        except ValueError:
-            continue
     steps = np.diff(own)
     return len(days) - len(own), bool(np.any(steps < 0)), bool(np.any(steps != 1))
 
