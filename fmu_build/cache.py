@@ -7,7 +7,6 @@ long as it has the digest in its name. What the compilers keep becomes part of a
 import hashlib
 import os
 import shutil
-import stat
 import sys
 import time
 import uuid
@@ -17,13 +16,9 @@ from functools import cache, lru_cache
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from platformdirs import user_cache_path
-
 from fmu_build.errors import BuildError
+from fmu_build.private_folder import ANOTHER, UnusableFolder, private_folder
 
-FOLDER_VARIABLE = "HTB_CACHE"
-_NAME = "hydraulic-test-bench"
-_ANOTHER = f"name a folder of your own in the environment variable {FOLDER_VARIABLE}"
 KEPT_FMUS = 200
 IN_USE = 86400.0  # s since its last use for which an FMU stays, however many there are: a run may still read it
 _SETTLED = 2.0  # s since a file's last change from when a further one changes its time too: FAT counts in steps of 2 s
@@ -33,38 +28,15 @@ _MODELICA_FILES = (".mo", ".mos", "package.order")
 
 
 def cache_folder(purpose: str = "fmu") -> Path:
-    """The folder of finished FMUs, or for what a compiler keeps, made for this user alone (mode 0700) where missing.
-
-    It lies below $HTB_CACHE, else in the place this system has for such files.
+    """The folder of finished FMUs, or for what a compiler keeps, see `private_folder`.
 
     Raises:
-        BuildError: it cannot be made, belongs to another user, or others may write into it.
+        BuildError: it cannot be written, belongs to another user, or others may write into it.
     """
-    given = os.environ.get(FOLDER_VARIABLE)
-    root = Path(given).absolute() if given else user_cache_path(_NAME, appauthor=False, opinion=False)
-    folder = root / purpose
     try:
-        root.parent.mkdir(parents=True, exist_ok=True)
-        for made in (root, folder):
-            made.mkdir(mode=0o700, exist_ok=True)
-            _check_private(made)
-    except OSError as error:
-        raise _unwritable(folder, error) from error
-    return folder
-
-
-def _check_private(folder: Path) -> None:
-    """Refuse a folder into which another user could have put files; on Windows the user's profile protects its own."""
-    if os.name == "nt":
-        return
-    known = folder.stat()
-    if known.st_uid != os.geteuid():
-        raise BuildError(f"{folder} belongs to another user, so nothing is taken from it; {_ANOTHER}.")
-    if known.st_mode & (stat.S_IWGRP | stat.S_IWOTH):
-        raise BuildError(
-            f"other users may write into {folder}, so nothing is taken from it; delete it, or type "
-            f"`chmod -R go-w {folder}` if you trust what is in it."
-        )
+        return private_folder(purpose)
+    except UnusableFolder as error:
+        raise BuildError(f"{error}.") from error
 
 
 def content_key(
@@ -137,7 +109,7 @@ def _place(key: str, fmu: Path) -> Path:
 
 
 def _unwritable(folder: Path, error: OSError) -> BuildError:
-    return BuildError(f"cannot keep what is built in {folder}: {error.strerror or error}; {_ANOTHER}.")
+    return BuildError(f"cannot keep what is built in {folder}: {error.strerror or error}; {ANOTHER}.")
 
 
 @cache

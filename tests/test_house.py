@@ -91,7 +91,9 @@ def imported(nodes: Iterable[ast.AST]) -> Iterator[str]:
 
 def package_of(name: str) -> str:
     words = name.split(".")
-    has_parts = words[0] == "pysim" or words[:2] in (["fmu_build", "text"], ["fmu_build", "version"])
+    has_parts = words[0] == "pysim" or words[:2] in (
+        ["fmu_build", leaf] for leaf in ("text", "version", "private_folder")
+    )
     return ".".join(words[:2]) if has_parts and len(words) > 1 else words[0]
 
 

@@ -12,10 +12,10 @@ from pysim.io.load.clock import TIME_NAMES, rises
 from pysim.io.load.headings import name_and_unit
 from pysim.io.load.moments import looks_like_moment
 from pysim.io.thesis_folder import LOG_SUFFIXES, read_thesis_folder
-from pysim.types import SECONDS, UNITS, BadInput, MeasuredRecord, MeasuredSignal
+from pysim.types import SECONDS, SYNONYMS, UNITS, BadInput, MeasuredRecord, MeasuredSignal
 
 LEFT_OUT = "-"  # in place of the name of a column that nobody needs, or that holds no numbers
-OPEN = "?"  # in place of a unit that nobody told; refused until it is filled in
+OPEN = "?"  # in place of a unit that nobody gave; refused until it is filled in
 _TABLE = "frequency_hz"  # first column of a table of responses, which is no log
 _NEEDED = "one input and one response are needed at least; name them, --input NAME:UNIT --response NAME:UNIT"
 
@@ -104,13 +104,13 @@ def _take_clock(found: Draft, path: Path, clock: Column) -> None:
     if not clock.unit:
         return
     if clock.unit not in SECONDS:
-        told = f"{_source(found, path)} heads it {clock.heading!r}"
-        found.remarks.append(f"time: taken for s, though {told}; say time_unit")
+        source = _source(found, path)
+        found.remarks.append(f"time: taken for s, though {source} heads it {clock.heading!r}; say time_unit")
         return
-    found.clocks.setdefault(clock.unit, _source(found, path))
+    found.clocks.setdefault(SYNONYMS.get(clock.unit, clock.unit), _source(found, path))
     if len(found.clocks) > 1:
-        told = ", ".join(f"{one} in {where}" for one, where in found.clocks.items())
-        raise BadInput(f"{found.folder}: times are in {told}; put logs of one unit of time into a folder of their own")
+        units = ", ".join(f"{one} in {where}" for one, where in found.clocks.items())
+        raise BadInput(f"{found.folder}: times are in {units}; put logs of one unit of time into a folder of their own")
 
 
 def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -> None:
@@ -143,8 +143,8 @@ def _names(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -
 def _guessed(found: Draft, path: Path, columns: Sequence[Column], by_name: bool) -> list[str]:
     """Of a log of which nothing was said: time, then the command, then what answers."""
     short = [column.name for column in columns]
-    told = [name for name in short if name != LEFT_OUT]
-    own = [column.heading for column in columns] if by_name or len(set(told)) < len(told) else short
+    kept = [name for name in short if name != LEFT_OUT]
+    own = [column.heading for column in columns] if by_name or len(set(kept)) < len(kept) else short
     time = _time(found, path, columns, own)
     names = ["time" if k == time else name for k, name in enumerate(own)]
     for name, column in zip(names, columns, strict=True):

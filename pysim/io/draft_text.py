@@ -21,8 +21,8 @@ def draft_text(found: Draft) -> str:
         f"name = {toml_value(found.folder.resolve().name)}",
         '# description = "what was tested, and on which bench"',
     ]
-    told = f"time_unit = {toml_value(found.time_unit)}"
-    head += [told] if found.time_unit != "s" else ['# time_unit = "ms"    # where the times are not in s']
+    time_unit = f"time_unit = {toml_value(found.time_unit)}"
+    head += [time_unit] if found.time_unit != "s" else ['# time_unit = "ms"    # where the times are not in s']
     parts = ["\n".join(head), *(_signal(found, name) for name in found.roles)]
     parts += [_record(found, source, first=not k) for k, source in enumerate(found.columns)]
     return "\n\n".join(parts) + "\n"

@@ -283,9 +283,9 @@ class Data(Shown):
                 empty = int(np.count_nonzero(~np.isfinite(record.data.values)))
             else:
                 size, span, empty = record.data.frequency.size, "-", 0
-            told = [counted(empty, "empty cell")] if empty else []
-            uneven = [text for text in self.remarks.get(record.source, ()) if text.startswith("uneven")]
-            rows.append((name, record.use, str(size), span, "; ".join([*told, *uneven])))
+            cells = [counted(empty, "empty cell")] if empty else []
+            doubts = [s for s in self.remarks.get(record.source, ()) if s.startswith(("date", "uneven", "unit"))]
+            rows.append((name, record.use, str(size), span, "; ".join([*cells, *doubts])))
         return Table.of(("log", "use", "samples", "seconds", "warnings"), rows, key="log")
 
 

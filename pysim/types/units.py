@@ -12,7 +12,7 @@ _KINDS: Mapping[str, Mapping[str, float]] = {
     "1": {},
     "%": {},
     "%/s": {},
-    "s": {"ms": 1e-3, "us": 1e-6, "min": 60.0, "h": 3600.0},
+    "s": {"ms": 1e-3, "us": 1e-6, "ns": 1e-9, "min": 60.0, "h": 3600.0},
     "Hz": {"kHz": 1e3},
     "1/s": {},
     "rad": {"deg": math.pi / 180},
@@ -50,20 +50,13 @@ _ZEROS = {"degC": ("K", 1.0, 273.15), "degF": ("K", 5 / 9, 459.67 * 5 / 9)}
 SYNONYMS: Mapping[str, str] = MappingProxyType(
     {
         **{"-": "1", "°": "deg", "°/s": "deg/s", "°/s²": "deg/s2", "rad/s²": "rad/s2"},
-        **{
-            "U/min": "rpm",
-            "µs": "us",
-            "μs": "us",
-            "µm": "um",
-            "μm": "um",
-            "m/s²": "m/s2",
-            "mm/s²": "mm/s2",
-            "m/s^2": "m/s2",
-        },
+        **{"U/min": "rpm", "µs": "us", "μs": "us", "µm": "um", "μm": "um"},
+        **{"m/s²": "m/s2", "mm/s²": "mm/s2", "m/s^2": "m/s2"},
         **{"m²": "m2", "mm²": "mm2", "cm²": "cm2", "m³": "m3", "cm³": "cm3", "ccm": "cm3", "L": "l", "m³/s": "m3/s"},
         **{"m³/h": "m3/h", "L/min": "l/min", "lpm": "l/min", "L/s": "l/s", "L/h": "l/h", "mm²/s": "mm2/s"},
         **{"Nm": "N.m", "N*m": "N.m", "kNm": "kN.m", "Ns/m": "N.s/m", "Pas": "Pa.s", "mPas": "mPa.s", "kg/m³": "kg/m3"},
         **{"°C": "degC", "°F": "degF"},
+        **{"sec": "s", "secs": "s", "second": "s", "seconds": "s", "msec": "ms", "minutes": "min", "hours": "h"},
     }
 )
 

@@ -167,7 +167,7 @@ def test_without_a_name_it_is_the_systems_place(tmp_path: Path, monkeypatch: pyt
 
 def test_a_cache_that_cannot_be_written_names_the_cure(root: Path, fmu: Path) -> None:
     root.touch()
-    with pytest.raises(BuildError, match=r"cannot keep what is built in .*HTB_CACHE"):
+    with pytest.raises(BuildError, match=r"cannot write into .*HTB_CACHE"):
         store("k", fmu)
 
 

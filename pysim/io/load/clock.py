@@ -12,10 +12,10 @@ from numpy.typing import NDArray
 from pysim.io.columns import standing
 from pysim.io.counted import counted
 from pysim.io.load.headings import heading_of, name_and_unit, unit_of
-from pysim.io.load.moments import moments_of, seconds_of_day
+from pysim.io.load.moments import DATE_ORDERS, moments_of, seconds_of_day
 from pysim.io.load.table import RawTable, number_of
 from pysim.io.units import unit_cure
-from pysim.types import SECONDS, BadInput, sampling
+from pysim.types import SECONDS, UNITS, BadInput, sampling
 
 Array = NDArray[np.float64]
 
@@ -23,7 +23,7 @@ _TIMES = "time t elapsed timestamp date_time datetime date/time x_value zeit zei
 TIME_NAMES = frozenset(_TIMES.split())  # how a clock is headed, in small letters
 _UNEVEN = 0.05  # of the interval
 _FALLS = 0.05  # of the rows: a clock that was set back now and then is refused where it does, and not mistaken
-_EPOCHS = {1e9: "s", 1e12: "ms", 1e15: "us"}  # counts since 1970 begin there, and are below four times that
+_EPOCHS = {1e9: "s", 1e12: "ms", 1e15: "us", 1e18: "ns"}  # counts since 1970 begin there, and are below four times that
 _UNTIL = 4.0
 _NS = np.timedelta64(1, "ns")
 
@@ -78,8 +78,8 @@ def _found(table: RawTable, units: Mapping[str, str], signals: Collection[str]) 
     for heading in dict.fromkeys(table.headings):
         if heading in signals or table.headings.count(heading) > 1:
             continue
-        name, unit = name_and_unit(heading)
-        unit = units.get(name, units.get(heading, table.units.get(heading, unit)))
+        name = name_and_unit(heading)[0]
+        unit = unit_of(table, heading, name, units)[0]
         cells = table.column(heading)
         try:
             moments = moments_of(cells, f"{table.place}, {heading}") is not None or seconds_of_day(cells) is not None
@@ -89,13 +89,13 @@ def _found(table: RawTable, units: Mapping[str, str], signals: Collection[str]) 
             certain.append((heading, "it holds dates or times of day"))
             continue
         named = name.strip().lower() in TIME_NAMES or heading.strip().lower() in TIME_NAMES
-        if (unit in SECONDS and (named or unit not in ("min", "h"))) or (named and not unit):
+        if (unit in SECONDS and (named or SECONDS[unit] <= 1)) or (named and not unit):
             if _is_word_among_numbers(cells):
                 table.numbers(heading)  # is refused, with its place
             how = rises(table, heading)
             if how:
                 certain.append((heading, f"it is headed {heading!r}, {how}"))
-        elif not unit and rises(table, heading):
+        elif (unit in SECONDS or unit not in UNITS) and rises(table, heading):
             perhaps.append(heading)
     if len(certain) == 1:
         return certain[0][0], f"time: column {certain[0][0]!r}, since {certain[0][1]}"
@@ -140,14 +140,12 @@ def _seconds(table: RawTable, heading: str, units: Mapping[str, str]) -> tuple[A
     """Times in s, the moment of the first, and a remark."""
     cells, name = table.column(heading), name_and_unit(heading)[0]
     unit, remark = unit_of(table, heading, name, units)
-    form = unit if "%" in unit and len(unit) > 1 else ""
+    form = unit if ("%" in unit and len(unit) > 1) or unit in DATE_ORDERS else ""
     moments = moments_of(cells, f"{table.place}, {heading}", form)
     if moments is not None:
-        first = moments[0]
-        if np.isnat(first):
-            return np.full(moments.size, np.nan), None, ""
-        away = np.where(np.isnat(moments), np.nan, (moments - first) / _NS)
-        return 1e-9 * away, float((first - np.datetime64(0, "ns")) / _NS) * 1e-9, remark
+        first = moments.values[0]
+        begin = float((first - np.datetime64(0, "ns")) / _NS) * 1e-9 if moments.dated else None
+        return 1e-9 * ((moments.values - first) / _NS), begin, moments.remark or remark
     day = seconds_of_day(cells)
     if day is not None:
         return day - day[0], None, remark
@@ -155,10 +153,10 @@ def _seconds(table: RawTable, heading: str, units: Mapping[str, str]) -> tuple[A
     if cells.dtype.kind == "m":
         return values, None, remark
     since = next((size for size in _EPOCHS if values.size and size <= values[0] < _UNTIL * size), None)
-    if since is not None and unit in ("", _EPOCHS[since]):
+    if since is not None and (not unit or SECONDS.get(unit) == SECONDS[_EPOCHS[since]]):
         second = SECONDS[_EPOCHS[since]]
-        told = f"time: {heading!r} counts {_EPOCHS[since]} since 1970, since it begins with {values[0]:.0f}"
-        return second * (values - values[0]), second * float(values[0]), told
+        counts = f"time: {heading!r} counts {_EPOCHS[since]} since 1970, since it begins with {values[0]:.0f}"
+        return second * (values - values[0]), second * float(values[0]), remark or counts
     if unit and unit not in SECONDS:
         raise BadInput(
             f"{table.place}: the time {heading!r} is in {unit!r}, which is no unit of time; "

@@ -67,8 +67,9 @@ def unit_of(table: RawTable, heading: str, name: str, units: Mapping[str, str]) 
     Args:
         units: what the user says, by the name of the signal or the heading.
     """
-    written = table.units.get(heading) or name_and_unit(heading)[1]
-    given = units.get(name, units.get(heading, ""))
+    short, written = name_and_unit(heading)
+    written = table.units.get(heading) or written
+    given = next((units[one] for one in (name, heading, short) if one in units), "")
     if given and written and given != written:
-        return given, f"{name}: taken in {given} as you say, though {table.place} says {written}"
+        return given, f"unit of {name}: {given} as you say, though {table.place} says {written}"
     return given or written, ""

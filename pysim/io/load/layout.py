@@ -80,7 +80,7 @@ def _names_all(row: Row, wanted: Sequence[int]) -> bool:
 
 
 def _is_units(row: Row, wanted: Sequence[int]) -> bool:
-    """Whether a row holds units: mostly those that are known, and no word in brackets behind another."""
+    """Whether a row holds units: more than half of its cells are known ones, with brackets around them or not."""
     own = [_bare(row[c]) for c in wanted if not is_empty(row[c])]
     return bool(own) and 2 * sum(known_unit(unit) for unit in own) > len(own)
 
@@ -100,6 +100,6 @@ def _headings(above: Sequence[Row], width: int, wanted: Sequence[int]) -> tuple[
     for cell in above[-2] if len(above) > 1 else [""] * width:
         group = group if is_empty(cell) else str(cell).strip()
         groups.append(group)
-    told = [f"{g} {n}".strip() if names.count(n) > 1 or not n else n for g, n in zip(groups, names, strict=True)]
-    kept = told if len(set(told)) == len(told) else names
+    full = [f"{g} {n}".strip() if names.count(n) > 1 or not n else n for g, n in zip(groups, names, strict=True)]
+    kept = full if len(set(full)) == len(full) else names
     return tuple(name or f"column {k + 1}" for k, name in enumerate(kept))

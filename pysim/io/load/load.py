@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
+from difflib import get_close_matches
 from typing import Any
 
 import numpy as np
@@ -55,7 +56,7 @@ def load_logs(
             to them: signal -> heading.
         time: heading of the clock; without it, that is looked for.
         units: signal (or heading) -> unit, where no heading tells one; of a clock of dates also how they are written,
-            as of `datetime.strptime`.
+            "day/month/year" or as of `datetime.strptime`.
         noise: signal -> standard deviation of its noise, in its unit.
         variables: signal -> variable of the model, where that is called otherwise.
         hold: input -> how it runs between samples, "zero", "linear" or "spline".
@@ -63,19 +64,22 @@ def load_logs(
         BadInput: what cannot be read, is not there, or must be asked for, with its place and the cure.
     """
     units, noise, variables, hold = units or {}, noise or {}, variables or {}, hold or {}
-    wanted = {**_named(inputs, "inputs"), **_named(outputs, "outputs")}
-    roles = dict.fromkeys(_named(inputs, "inputs"), "input") | dict.fromkeys(_named(outputs, "outputs"), "output")
-    if len(roles) < len(_named(inputs, "")) + len(_named(outputs, "")):
-        raise BadInput(f"{', '.join(n for n in _named(inputs, '') if n in _named(outputs, ''))}: name it once")
-    _refuse_strangers(wanted, {"noise": noise, "variables": variables, "hold": hold})
+    given, answers = _named(inputs, "inputs"), _named(outputs, "outputs")
+    wanted = given | answers
+    roles = dict.fromkeys(given, "input") | dict.fromkeys(answers, "output")
+    if twice := [name for name in given if name in answers]:
+        raise BadInput(f"{', '.join(twice)}: input or output? Name it once")
+    for what, own in {"noise": noise, "variables": variables, "hold": hold}.items():
+        _refuse_strangers(what, own, wanted)
     tables = _holding(tables_of(source), wanted)
+    headings = [heading for table in tables for heading in table.headings]
+    _refuse_strangers("units", units, [*wanted, *headings, *(name_and_unit(heading)[0] for heading in headings)])
     seen: dict[str, Scale] = {}
     called: dict[str, str] = {}
     records, remarks = [], {}
     for table in tables:
-        record, told, scales, own = _record(table, wanted, time, units)
+        record, remarks[table.name], scales, own = _record(table, wanted, time, units)
         records.append(record)
-        remarks[table.name] = told
         for name, scale in scales.items():
             called.setdefault(name, own[name])
             if seen.setdefault(name, scale).unit != scale.unit:
@@ -97,20 +101,26 @@ def load_logs(
 
 def _named(names: Names, what: str) -> dict[str, str]:
     """Signal -> what the user calls its column."""
+    if not names:
+        raise BadInput(f"{what} are missing; name at least one column")
     if isinstance(names, Mapping):
         return dict(names)
-    own = [names] if isinstance(names, str) else list(names)
-    if not own and what:
-        raise BadInput(f"{what} are missing; name at least one column")
-    return {name_and_unit(name)[0]: name for name in own}
+    found: dict[str, str] = {}
+    for name in [names] if isinstance(names, str) else names:
+        short = name_and_unit(name)[0]
+        if short in found:
+            cure = f'name it once, or give another name to one of them: {what}={{"another": "{name}"}}'
+            raise BadInput(f"{what} name {short} twice, as {found[short]!r} and {name!r}; {cure}")
+        found[short] = name
+    return found
 
 
-def _refuse_strangers(signals: Mapping[str, str], given: Mapping[str, Mapping[str, Any]]) -> None:
+def _refuse_strangers(what: str, given: Collection[str], known: Collection[str]) -> None:
     """A misspelt name would be a silent default."""
-    for what, values in given.items():
-        for name in values:
-            if name not in signals:
-                raise BadInput(f"{what} names {name!r}, which is no signal; use one of {', '.join(signals)}")
+    for name in given:
+        if name not in known:
+            near = get_close_matches(name, known) or dict.fromkeys(known)
+            raise BadInput(f"{what} names {name!r}, which is not there; use {' or '.join(map(repr, near))}")
 
 
 def _holding(tables: Sequence[RawTable], wanted: Mapping[str, str]) -> list[RawTable]:
@@ -135,19 +145,15 @@ def _record(
 ) -> tuple[MeasuredRecord, tuple[str, ...], dict[str, Scale], dict[str, str]]:
     """One log, remarks on it, and per signal its scale and unit."""
     headings = {name: heading_of(table, own) for name, own in wanted.items()}
-    scales, told, remarks, without = {}, {}, list(table.remarks), []
-    for name, heading in headings.items():
-        told[name], remark = unit_of(table, heading, name, units)
-        remarks += [remark] if remark else []
-        if told[name]:
-            scales[name] = scale_of(told[name], f"{table.place}, {name}")
-        else:
-            without.append(name)
-    if without:
+    found = {name: unit_of(table, heading, name, units) for name, heading in headings.items()}
+    own = {name: unit for name, (unit, _) in found.items()}
+    remarks = [*table.remarks, *(remark for _, remark in found.values() if remark)]
+    if without := [name for name, unit in own.items() if not unit]:
         shown = ", ".join(f'"{name}": "..."' for name in without)
         raise BadInput(
             f'{table.place}: in which unit is {" and ".join(without)}? Say it: units={{{shown}}}, "1" for none'
         )
+    scales = {name: scale_of(unit, f"{table.place}, {name}") for name, unit in own.items()}
     clock = read_clock(table, time, units, tuple(headings.values()))
     columns = {name: table.numbers(heading)[clock.rows] for name, heading in headings.items()}
     values = np.column_stack([scales[name].gain * column + scales[name].zero for name, column in columns.items()])
@@ -158,10 +164,10 @@ def _record(
         if empty == column.size:
             raise BadInput(f"{table.place}: {name} is empty from the first row to the last; name another column")
         remarks += [f"{name}: {counted(empty, 'empty cell')}"] if empty else []
-    own = tuple(scale.unit for scale in scales.values())
-    data = Record(clock.time, values, tuple(headings), own, origin=f"measured, {table.place}")
+    units_in_si = tuple(scale.unit for scale in scales.values())
+    data = Record(clock.time, values, tuple(headings), units_in_si, origin=f"measured, {table.place}")
     record = MeasuredRecord(table.name, OTHER.name, "fit", data, begin=clock.begin)
-    return record, (*clock.remarks, *remarks), scales, told
+    return record, (*clock.remarks, *remarks), scales, own
 
 
 def _noise(noise: Mapping[str, float], name: str, scale: Scale) -> float | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -37,24 +37,25 @@ def read_matlab(path: Path) -> tuple[RawTable, ...]:
             head = file.read(1024)
     except OSError as error:
         raise BadInput(f"cannot read {path} ({error.strerror or error}); correct the name") from error
-    found = dict(_of_hdf5(path) if _HDF5 in head else _of_old(path))
-    by_length: dict[int, dict[str, NDArray[Any]]] = {}
-    for name, values in found.items():
-        by_length.setdefault(values.size, {})[name] = values
+    found = list(_of_hdf5(path) if _HDF5 in head else _of_old(path))
+    by_length: dict[int, list[tuple[str, NDArray[Any]]]] = {}
+    for name, values in found:
+        by_length.setdefault(values.size, []).append((name, values))
     long = {size: own for size, own in by_length.items() if size > 1 and len(own) > 1}
     if not long:
-        named = ", ".join(f"{name} ({values.size})" for name, values in found.items()) or "no vectors"
+        named = ", ".join(f"{name} ({values.size})" for name, values in found) or "no vectors"
         raise BadInput(f"{path} holds {named}, and a log needs a time and a signal of the same length; save both")
     return tuple(_table(path, own, len(long)) for own in long.values())
 
 
-def _table(path: Path, own: Mapping[str, NDArray[Any]], count: int) -> RawTable:
+def _table(path: Path, own: Sequence[tuple[str, NDArray[Any]]], count: int) -> RawTable:
     """Vectors of one length, by their last name where that is enough."""
-    last = [name.rpartition(".")[2] for name in own]
-    names = tuple(short if last.count(short) == 1 else name for name, short in zip(own, last, strict=True))
-    root = next(iter(own)).partition(".")[0]
+    full, cells = zip(*own, strict=True)
+    last = [name.rpartition(".")[2] for name in full]
+    names = tuple(short if last.count(short) == 1 else name for name, short in zip(full, last, strict=True))
+    root = full[0].partition(".")[0]
     place = f"{path}, {root}" if count > 1 else str(path)
-    return RawTable(place, f"{path.stem}-{root}.mat" if count > 1 else path.name, names, tuple(own.values()))
+    return RawTable(place, f"{path.stem}-{root}.mat" if count > 1 else path.name, names, cells)
 
 
 def _of_old(path: Path) -> Found:
@@ -74,8 +75,8 @@ def _of_old(path: Path) -> Found:
 def _vectors(place: str, name: str, value: Any, depth: int = 0) -> Found:
     """Vectors of numbers within a value."""
     if isinstance(value, Mapping) and depth < _DEEP:
-        if {"values", "label"} <= set(value):  # of Simulink's structure with time
-            yield from _vectors(place, f"{name.rpartition('.')[0]}.{value['label'] or name}", value["values"], depth)
+        if "values" in value and isinstance(value.get("label"), str):  # of Simulink's structure with time
+            yield from _vectors(place, f"{name.rpartition('.')[0]}.{value['label']}", value["values"], depth)
             return
         for key, own in value.items():
             yield from _vectors(place, f"{name}.{key}", own, depth + 1)
@@ -114,7 +115,7 @@ def _of_group(h5py: Any, file: Any, group: Any, ahead: str, depth: int) -> Found
         if name.startswith("#") or depth > _DEEP:
             continue
         if isinstance(own, h5py.Group):
-            label = _text(file, own["label"]) if {"values", "label"} <= set(own) else ""
+            label = _text(own["label"]) if {"values", "label"} <= set(own) else ""
             if label:
                 yield from _of_data(h5py, file, f"{ahead.rpartition('.')[0]}.{label}", own["values"], depth)
             else:
@@ -135,6 +136,6 @@ def _of_data(h5py: Any, file: Any, name: str, data: Any, depth: int) -> Found:
                 yield from _of_data(h5py, file, f"{name}({k})", own, depth + 1)
 
 
-def _text(file: Any, data: Any) -> str:
+def _text(data: Any) -> str:
     """A row of characters."""
     return "".join(map(chr, np.asarray(data).ravel())) if data.dtype.kind == "u" else ""

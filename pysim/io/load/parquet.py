@@ -24,9 +24,9 @@ def read_parquet_log(path: Path, limits: ReadLimits = LIMITS) -> tuple[RawTable,
     """
     with opened(path, _flat, "load", limits, f'"{EXTRA}"') as (file, names):
         table = file.read(columns=list(names), use_threads=False)
-        cells = tuple(_cells(table.column(name)) for name in names)
-    units = {name: unit for name in names if (unit := _unit(table.schema.field(name).metadata))}
-    return (RawTable(str(path), path.name, names, cells, units),)
+        cells = tuple(map(_cells, table.columns))
+    units = {own.name: unit for own in table.schema if (unit := _unit(own.metadata))}
+    return (RawTable(str(path), path.name, tuple(table.column_names), cells, units),)
 
 
 def _flat(arrow: ModuleType, schema: Any) -> tuple[tuple[str, ...], list[str]]:

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from glob import glob
-from os.path import commonpath
-from pathlib import Path
+from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import Any
 
@@ -91,8 +90,13 @@ def _paths(place: str) -> list[Path]:
 
 def _read(paths: list[Path]) -> Iterator[RawTable]:
     """Files, called as seen from the folder that all of them share."""
-    root = Path(commonpath([path.resolve().parent for path in paths])) if paths else Path()
-    for path in paths:
-        above = path.resolve().parent.relative_to(root).as_posix()
+    for path, above in zip(paths, seen_from_shared([path.resolve().parent for path in paths]), strict=True):
         for table in READERS.get(path.suffix.lower(), read_text_log)(path):
             yield table if above == "." else replace(table, name=f"{above}/{table.name}")
+
+
+def seen_from_shared(folders: Sequence[PurePath]) -> list[str]:
+    """Folders as seen from the lowest one that holds all of them; "." where none does, as on two drives of Windows."""
+    above = [folders[0], *folders[0].parents] if folders else []
+    shared = next((one for one in above if all(folder.is_relative_to(one) for folder in folders)), None)
+    return [folder.relative_to(shared).as_posix() if shared else "." for folder in folders]

@@ -75,7 +75,7 @@ def _dialect(sample: Sequence[str]) -> tuple[Dialect, int] | None:
     return None if best is None or best[0] < 0.3 else best[1:]
 
 
-def _bare(line: str, how: Dialect, width: int) -> str:
+def _bare(line: str, how: Dialect) -> str:
     """A line without blanks around it, which separate nothing but where blanks do."""
     return line.strip() if how.separator is None else line.strip(" ")
 
@@ -83,7 +83,7 @@ def _bare(line: str, how: Dialect, width: int) -> str:
 def _head_row(line: str, usual: Dialect, width: int) -> list[str]:
     """A line that may be one of headings: commas in names stay, and another separator counts where it gives all."""
     for how in (usual, *DIALECTS):
-        bare = _bare(line, how, width)
+        bare = _bare(line, how)
         row = how.fields(bare)
         if len(row) == width or (how is usual and len(row) > 1):
             words = [word.strip() for word in bare.split(how.separator)]
@@ -94,11 +94,11 @@ def _head_row(line: str, usual: Dialect, width: int) -> list[str]:
 
 def _fields(line: str, usual: Dialect, width: int) -> list[str]:
     """A row; where the usual separator does not give all fields, and another one does, by that."""
-    row = usual.fields(_bare(line, usual, width))
+    row = usual.fields(_bare(line, usual))
     if len(row) == width:
         return row
     for how in DIALECTS:
-        other = how.fields(_bare(line, how, width))
+        other = how.fields(_bare(line, how))
         if len(other) == width and all(is_value(cell) or is_empty(cell) for cell in other):
             return other
     return row
@@ -187,8 +187,8 @@ def _with_labview_clock(
     header: Sequence[str], names: tuple[str, ...], cells: tuple[NDArray[Any], ...]
 ) -> tuple[tuple[str, ...], tuple[NDArray[Any], ...]]:
     """The first column filled from begin and step, where LabVIEW was set to write no times."""
-    told = [_labview(header, key) for key in (_BEGIN, _STEP)]
-    begin, step = (number(words[0].replace(",", ".")) if words else None for words in told)
+    of_channels = [_labview(header, key) for key in (_BEGIN, _STEP)]
+    begin, step = (number(words[0].replace(",", ".")) if words else None for words in of_channels)
     if begin is None or step is None or not all(is_empty(cell) for cell in cells[0].tolist()):
         return names, cells
     return ("X_Value", *names[1:]), (begin + step * np.arange(cells[0].size), *cells[1:])

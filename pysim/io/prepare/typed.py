@@ -25,8 +25,8 @@ def typed(step: Step) -> str:
         elif field.name == step.star:
             words += value
         else:
-            told = _BETWEEN.join(value) if isinstance(value, tuple) else _text(value)
-            words.append(told if field.default is MISSING else f"{field.name}={told}")
+            text = _BETWEEN.join(value) if isinstance(value, tuple) else _text(value)
+            words.append(text if field.default is MISSING else f"{field.name}={text}")
     return ":".join([step.word, ",".join(words)] if words else [step.word])
 
 

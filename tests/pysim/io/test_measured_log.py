@@ -167,8 +167,8 @@ def test_times_in_ms(tmp_path: Path) -> None:
         read_dataset(files(tmp_path, sine=in_ms))
     toml = TOML.replace("[dataset]", '[dataset]\ntime_unit = "ms"')
     np.testing.assert_allclose(read_dataset(files(tmp_path, toml, in_ms)).logs()[0].data.time, [0.0, 0.1, 0.2])
-    with pytest.raises(BadInput, match="time_unit = 'sec' is not known; use one of s, ms, us, min, h"):
-        read_dataset(files(tmp_path, TOML.replace("[dataset]", '[dataset]\ntime_unit = "sec"')))
+    with pytest.raises(BadInput, match="time_unit = 'day' is not known; use one of s, ms, us, ns, min, h"):
+        read_dataset(files(tmp_path, TOML.replace("[dataset]", '[dataset]\ntime_unit = "day"')))
 
 
 @pytest.mark.parametrize(("unit", "of_a_second"), [("us", 1e6), ("µs", 1e6), ("min", 1 / 60), ("h", 1 / 3600)])

@@ -134,6 +134,10 @@ READ: dict[str, tuple[Callable[[Path], Path], dict[str, Any]]] = {
         ),
         UNITS,
     ),
+    ".mat of Simulink's structure without labels": (
+        matlab(t=TIME, F=FORCE, out={"signals": [{"values": PLACE, "label": ""}, {"values": FORCE, "label": "y"}]}),
+        {**UNITS, "outputs": {"x": "values"}},
+    ),
     ".mat of version 7.3 with a struct": (matlab73(log={"t": TIME, "F": FORCE, "x": PLACE}), UNITS),
 }
 
@@ -176,6 +180,27 @@ REFUSED: dict[str, tuple[Callable[[Path], Path], dict[str, Any], str, str]] = {
         of_lines("t [s],F [kN],F [V],x [mm]", *(f"{t},{f},{f},{x}" for t, f, x in ROWS)),
         {}, r"log\.csv: which column is 'F', 'F \[kN\]' or 'F \[V\]'", "with its unit",
     ),
+    "two columns of the same name, both wanted": (
+        of_lines("t [s],F [kN],x [V],x [mm]", *(f"{t},{f},{f},{x}" for t, f, x in ROWS)),
+        {"outputs": ["x [V]", "x [mm]"]}, r"outputs name x twice, as 'x \[V\]' and 'x \[mm\]'", "another name",
+    ),
+    "a column that is named twice": (
+        of_lines(HEAD, *LINES), {"outputs": ["x", "x"]}, "outputs name x twice", "name it once",
+    ),
+    "a column that is input and output": (
+        of_lines(HEAD, *LINES), {"outputs": ["x", "F"]}, "F: input or output", "Name it once",
+    ),
+    "two signals of Simulink with one label": (
+        matlab(out={"time": TIME, "signals": [{"values": v, "label": "x"} for v in (FORCE, PLACE)]}, F=FORCE),
+        {**UNITS, "outputs": {"x": "out.x"}}, r"log\.mat: 2 columns are headed 'out\.x'", "give each its own name",
+    ),
+    "Parquet with two columns of one name": (
+        lambda folder: _parquet(folder, ("t", "F", "x", "x"), (TIME, FORCE, PLACE, FORCE)),
+        UNITS, r"log\.parquet: 2 columns are headed 'x'", "give each its own name",
+    ),
+    "a unit of a column that is not there": (
+        of_lines(HEAD, *LINES), {"units": {"f": "N"}}, "units names 'f'", "use 'F'",
+    ),
     "no clock, and a force that rises evenly": (
         of_lines("ramp,F [kN],x [mm]", *LINES), {}, r"log\.csv: is 'ramp' the time", r'name it: time="ramp"',
     ),
@@ -184,8 +209,8 @@ REFUSED: dict[str, tuple[Callable[[Path], Path], dict[str, Any], str, str]] = {
         {}, r"log\.csv: no column is a clock", r"one of F \[kN\], x \[mm\]",
     ),
     "day or month": (
-        of_lines("t,F [kN],x [mm]", *(f"03/04/2026 14:05:{t:09.6f},{f},{x}" for t, f, x in ROWS)),
-        {}, r"log\.csv, t: is '03/04/2026 14:05:00\.000000' day/month or month/day", "Say it in units",
+        of_lines("t,F [kN],x [mm]", *(f"0{3 if t < 0.2 else 5}/04/2026 14:05,{f},{x}" for t, f, x in ROWS)),
+        {}, r"log\.csv, t: is '03/04/2026 14:05' day/month/year or month/day/year", "Say it in units",
     ),
     "a header again in the middle": (
         of_lines(HEAD, *LINES[:20], HEAD, *LINES[20:]),
@@ -226,6 +251,12 @@ def _binary(path: Path) -> Path:
     return path
 
 
+def _parquet(folder: Path, names: tuple[str, ...], columns: tuple[Any, ...]) -> Path:
+    pyarrow, parquet = pytest.importorskip("pyarrow"), pytest.importorskip("pyarrow.parquet")
+    parquet.write_table(pyarrow.Table.from_arrays([*map(pyarrow.array, columns)], names), folder / "log.parquet")
+    return folder / "log.parquet"
+
+
 def _cut(path: Path) -> Path:
     path.write_bytes(path.read_bytes()[:300])
     return path
@@ -234,7 +265,7 @@ def _cut(path: Path) -> Path:
 @pytest.mark.parametrize("name", READ)
 def test_read_rightly(name: str, tmp_path: Path) -> None:
     write, said = READ[name]
-    data = load(write(tmp_path), inputs="F", outputs="x", **said)
+    data = load(write(tmp_path), **{"inputs": "F", "outputs": "x", **said})
     (record,) = data.dataset.records
     assert isinstance(record.data, Record)
     np.testing.assert_allclose(record.data.time, TIME, atol=1e-6)  # a spreadsheet's moments are so fine
@@ -246,7 +277,7 @@ def test_read_rightly(name: str, tmp_path: Path) -> None:
 def test_refused_with_file_place_and_cure(name: str, tmp_path: Path) -> None:
     write, said, place, cure = REFUSED[name]
     with pytest.raises(BadInput) as refused:
-        _ = load(write(tmp_path), inputs="F", outputs="x", **said).dataset
+        _ = load(write(tmp_path), **{"inputs": "F", "outputs": "x", **said}).dataset
     text = str(refused.value)
     assert re.search(place, text), text
     assert re.search(cure, text), text

@@ -1,12 +1,13 @@
 """One log, in every form that it may come in: always the same data."""
 
 from collections.abc import Callable
-from pathlib import Path
+from pathlib import Path, PureWindowsPath
 from typing import Any
 
 import numpy as np
 import pytest
 
+from pysim.io.load.sources import seen_from_shared
 from pysim.nouns.data import load
 from pysim.types import Record
 from tests.pysim.io.load.files import write_mat73, write_ods, write_xlsx
@@ -154,3 +155,16 @@ def test_several_files_are_several_logs(source: str, tmp_path: Path) -> None:
     data = load(given[source], inputs="F", outputs="x")
     assert data.names == ("run1", "run2")
     assert data.hold_out("run2")["run2"].held_out
+
+
+@pytest.mark.parametrize(
+    ("folders", "seen"),
+    [
+        (["C:/rig/a/cold", "C:/rig/a", "c:/Rig/b"], ["a/cold", "a", "b"]),
+        (["C:/rig/a", "C:/rig/a"], [".", "."]),
+        (["C:/rig/a", "D:/rig/b"], [".", "."]),
+        ([], []),
+    ],
+)
+def test_logs_are_called_as_seen_from_the_folder_that_they_share(folders: list[str], seen: list[str]) -> None:
+    assert seen_from_shared([PureWindowsPath(folder) for folder in folders]) == seen

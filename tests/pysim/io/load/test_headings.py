@@ -8,7 +8,8 @@ import pytest
 from pysim.io.load.foreign_units import scale_of
 from pysim.io.load.headings import heading_of, name_and_unit
 from pysim.io.load.table import RawTable
-from pysim.types import BadInput
+from pysim.nouns.data import load
+from pysim.types import BadInput, Record
 
 
 @pytest.mark.parametrize(
@@ -73,6 +74,16 @@ def test_without_pint_the_message_says_what_to_install(monkeypatch: pytest.Monke
     monkeypatch.setattr("pysim.io.named_columns.import_module", absent)
     with pytest.raises(BadInput, match=r'log.csv, x: the unit \'inHg\' .* pip install "hydraulic-test-bench\[data\]"'):
         scale_of("inHg", "log.csv, x")
+
+
+@pytest.mark.parametrize("key", ["place", "x", "x [mm]"])
+def test_a_unit_that_the_heading_contradicts_is_taken_and_said(key: str) -> None:
+    log = {"t [s]": np.arange(5.0), "F [N]": np.ones(5), "x [mm]": np.full(5, 2.0)}
+    data = load(log, inputs="F", outputs={"place": "x"}, units={key: "cm"})
+    record = data.now.records[0]
+    assert isinstance(record.data, Record)
+    assert record.data["place"].tolist() == [0.02] * 5
+    assert {"cm", "mm"} <= set(str(data.table["warnings"][0]).replace(",", "").split())
 
 
 @pytest.mark.parametrize("name", ["log.xlsx", "log.parquet", "log.tdms", "log.mat"])

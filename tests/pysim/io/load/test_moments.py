@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 from datetime import UTC, datetime, timedelta
 from typing import Any
+from zoneinfo import ZoneInfoNotFoundError
 
 import numpy as np
 import pytest
@@ -62,20 +64,67 @@ def test_pandas_zones_and_summer_time() -> None:
     np.testing.assert_allclose(record.data.time, STEP * np.arange(COUNT), atol=1e-9)
 
 
-def test_days_and_months_are_told_apart_by_their_values_or_asked_for() -> None:
-    late = np.array([f"{m:%m/%d/%Y %I:%M:%S.%f %p}".replace("03/01", "03/14") for m in MOMENTS], dtype=object)
-    assert loaded(late)[1] == pytest.approx(datetime(2026, 3, 14, 13, 5, tzinfo=UTC).timestamp())
-    unsure = texts("%d/%m/%Y %H:%M:%S")
-    with pytest.raises(BadInput, match="is '01/03/2026 13:05:00' day/month or month/day"):
-        loaded(unsure)
-    first = np.array([f"{m:%d/%m/%Y %H:%M:%S.%f}" for m in MOMENTS], dtype=object)
-    _, begin, _ = loaded(first, units={"stamp": "%d/%m/%Y %H:%M:%S.%f"})
-    assert begin == pytest.approx(BEGIN.timestamp())
+@pytest.mark.parametrize("zone", ["Z", "UTC", "GMT", "utc"])
+def test_universal_time_needs_no_zone_data(zone: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    def absent(name: str) -> None:
+        raise ZoneInfoNotFoundError(name)
+
+    monkeypatch.setattr("pysim.io.load.moments.ZoneInfo", absent)
+    assert loaded(texts("%Y-%m-%d %H:%M:%S.%f", end=f" {zone}"))[1] == pytest.approx(BEGIN.timestamp(), abs=1e-6)
+    with pytest.raises(BadInput, match="zone 'Europe/Berlin'"):
+        loaded(texts("%Y-%m-%d %H:%M:%S.%f", end=" Europe/Berlin"))
 
 
-def test_times_of_day_go_on_beyond_midnight() -> None:
+def dated(form: str, begin: datetime, step: timedelta) -> np.ndarray:
+    return np.array([f"{begin + k * step:{form}}" for k in range(COUNT)], dtype=object)
+
+
+@pytest.mark.parametrize(
+    ("form", "begin", "step"),
+    [
+        ("%m/%d/%Y %I:%M:%S.%f %p", datetime(2026, 3, 14, 13, 5), timedelta(seconds=STEP)),  # no month 14
+        ("%y/%m/%d %H:%M:%S", datetime(2032, 5, 17, 8), timedelta(seconds=1)),  # no day 32
+        ("%y/%m/%d %H:%M:%S", datetime(2024, 5, 17, 23, 59, 30), timedelta(seconds=1)),  # a second later, and no year
+        ("%d/%m/%y %H:%M:%S", datetime(2024, 5, 17, 23, 59, 30), timedelta(seconds=1)),
+        ("%y-%m-%d %H:%M:%S", datetime(2011, 1, 10), timedelta(hours=1)),  # in any other order it would fall
+        ("%m/%d/%y %H:%M:%S", datetime(2011, 1, 10), timedelta(hours=1)),
+        ("%d.%m.%y %H:%M:%S", datetime(2011, 1, 10), timedelta(seconds=1)),  # with dots the day is first
+    ],
+)
+def test_the_dates_of_a_log_decide_their_order(form: str, begin: datetime, step: timedelta) -> None:
+    log, found, _ = loaded(dated(form, begin, step))
+    np.testing.assert_allclose(log.time, step.total_seconds() * np.arange(COUNT), atol=1e-6)
+    assert found == pytest.approx(begin.replace(tzinfo=UTC).timestamp(), abs=1e-5)
+
+
+@pytest.mark.parametrize(
+    ("order", "began", "apart"),
+    [
+        ("year/month/day", datetime(2024, 5, 17, 12, tzinfo=UTC), 730),
+        ("day/month/year", datetime(2017, 5, 24, 12, tzinfo=UTC), 2),
+        ("%d/%m/%y %H:%M:%S", datetime(2017, 5, 24, 12, tzinfo=UTC), 2),
+    ],
+)
+def test_an_order_that_the_dates_leave_open_is_asked_for(order: str, began: datetime, apart: int) -> None:
+    one_day = dated("%d/%m/%y %H:%M:%S", datetime(2017, 5, 24, 12), timedelta(seconds=1))
+    log, begin, remarks = loaded(one_day)  # its times are known, and no more
+    np.testing.assert_allclose(log.time, np.arange(COUNT), atol=1e-9)
+    assert begin is None
+    assert any("year/month/day or day/month/year" in remark for remark in remarks)
+    assert loaded(one_day, units={"stamp": order})[1] == began.timestamp()
+    days = dated("%d/%m/%y %H:%M:%S", datetime(2017, 5, 24, 12), timedelta(hours=1))[[0, 48]]
+    frame = {"stamp": days, "F [N]": np.zeros(2), "x [mm]": np.zeros(2)}
+    with pytest.raises(BadInput, match="is '24/05/17 12:00:00' year/month/day or day/month/year"):
+        load(frame, inputs="F", outputs="x")
+    record = load(frame, inputs="F", outputs="x", units={"stamp": order}).now.records[0]
+    assert isinstance(record.data, Record)
+    assert record.data.time[1] == pytest.approx(86400 * apart)
+
+
+@pytest.mark.parametrize("form", ["%H:%M:%S.%f", "%I:%M:%S.%f %p", "%I:%M:%S,%f%p"])
+def test_times_of_day_go_on_beyond_midnight(form: str) -> None:
     start = datetime(2026, 3, 1, 23, 59, 59, tzinfo=UTC)
-    cells = [f"{start + timedelta(seconds=STEP * k * 5):%H:%M:%S.%f}" for k in range(COUNT)]
+    cells = [f"{start + timedelta(seconds=STEP * k * 5):{form}}" for k in range(COUNT)]
     log, begin, _ = loaded(np.array(cells, dtype=object))
     np.testing.assert_allclose(log.time, 5 * STEP * np.arange(COUNT), atol=1e-6)
     assert begin is None
@@ -90,6 +139,12 @@ def test_times_of_day_go_on_beyond_midnight() -> None:
         ("time", STEP / 60 * np.arange(COUNT), {"time": "min"}, None),
         ("timestamp", BEGIN.timestamp() + STEP * np.arange(COUNT), {}, BEGIN.timestamp()),
         ("timestamp", 1e3 * (BEGIN.timestamp() + STEP * np.arange(COUNT)), {}, BEGIN.timestamp()),
+        ("timestamp", 1e6 * (BEGIN.timestamp() + STEP * np.arange(COUNT)), {}, BEGIN.timestamp()),
+        ("timestamp", 1e9 * (BEGIN.timestamp() + STEP * np.arange(COUNT)), {}, BEGIN.timestamp()),
+        ("Zeit [seconds]", BEGIN.timestamp() + STEP * np.arange(COUNT), {}, BEGIN.timestamp()),
+        ("clock [ns]", 1e9 * STEP * np.arange(COUNT), {}, None),
+        ("t [secs]", STEP * np.arange(COUNT), {}, None),
+        ("n", STEP * np.arange(COUNT), {"n": "sec"}, None),
         ("t", np.array(20 * np.arange(COUNT), dtype="timedelta64[ms]"), {}, None),
     ],
 )
@@ -117,6 +172,12 @@ def test_a_force_is_never_the_clock() -> None:
     record = data.dataset.records[0]
     assert isinstance(record.data, Record)
     assert record.data.time[-1] == pytest.approx(STEP * (COUNT - 1))
+
+
+@pytest.mark.parametrize("heading", ["t [Sek]", "ramp [min]"])
+def test_what_may_be_a_clock_is_asked_for(heading: str) -> None:
+    with pytest.raises(BadInput, match=f"is '{re.escape(heading)}' the time"):
+        loaded(STEP * np.arange(COUNT), heading)
 
 
 def test_two_clocks_are_asked_for() -> None:
