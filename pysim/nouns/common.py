@@ -47,10 +47,17 @@ def dataset_of(data: Measured) -> Dataset:
     )
 
 
+def path_of(given: Path | str, argument: str) -> Path:
+    """A path of what is given as one."""
+    if isinstance(given, str | Path):
+        return Path(given)
+    raise BadInput(f"{argument}: {type(given).__name__} is no path; write it as a text", argument=argument)
+
+
 def libraries_of(library: Path | str | Sequence[Path | str]) -> tuple[Path, ...]:
     """One library or several, as paths; each has to be there."""
     places = [library] if isinstance(library, Path | str) else library
-    found = tuple(Path(one).absolute() for one in places)
+    found = tuple(path_of(one, "library").absolute() for one in places)
     for place in found:
         if not place.exists():
             raise BadInput(

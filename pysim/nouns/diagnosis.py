@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pysim.nouns.common import Measured, dataset_of
+from pysim.nouns.common import Measured, dataset_of, path_of
 from pysim.nouns.fit import Fit
 from pysim.nouns.law import Law, laws_of
 from pysim.nouns.model import Model
@@ -231,14 +231,16 @@ class Diagnosis(Shown):
         """Write report.html with its pictures, the fitted values, and class and FMU where effects were added."""
         from pysim.present import write_report
         from pysim.present.diagnosis import answered
+        from pysim.present.report import joining
         from pysim.workflow import write_extended
 
-        place = Path(folder)
-        place.mkdir(parents=True, exist_ok=True)
-        files = write_extended(self.found, self.parts, place)
-        beside = {name: path.name for name, path in files.items()}
-        result = answered("diagnose", self.found, self.parts.dataset, self.parts.model_name, beside)
-        return write_report(place, result) | files
+        place = path_of(folder, "folder")
+        with joining(place) as new:
+            files = write_extended(self.found, self.parts, new)
+            beside = {name: path.name for name, path in files.items()}
+            result = answered("diagnose", self.found, self.parts.dataset, self.parts.model_name, beside)
+            files = write_report(new, result) | files
+        return {name: place / path.name for name, path in files.items()}
 
     @property
     def table(self) -> Table:

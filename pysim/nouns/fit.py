@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pysim.nouns.common import Measured, dataset_of, libraries_of
+from pysim.nouns.common import Measured, dataset_of, libraries_of, path_of
 from pysim.nouns.model import Model
 from pysim.nouns.run import Run
 from pysim.nouns.table import Shown, Table
@@ -223,10 +223,9 @@ class Fit(Shown):
         """
         from pysim.io import write_dataset, write_file
         from pysim.nouns.data import as_text
+        from pysim.present.report import joining
 
-        place, begun = Path(folder), self.begun
-        write_dataset(place / _DATA, as_text(self.dataset), exact=True)
-        shutil.copyfile(begun.base.path, place / _FMU)
+        place, begun = path_of(folder, "folder"), self.begun
         asked = {
             **{name: getattr(begun, name) for name in _SAID},
             "libraries": [str(one) for one in begun.libraries],
@@ -239,7 +238,12 @@ class Fit(Shown):
             "search": {name: getattr(self.found, name) for name in ("message", "iterations", "start_cost")},
         }
         plain = json.dumps(asked, indent=1, default=lambda one: {**one} if isinstance(one, Mapping) else sorted(one))
-        write_file(place / _KEPT, plain)
+        if place.is_dir() and any(place.iterdir()):
+            raise BadInput(f"{place} holds files already; name a new folder", argument="folder")
+        with joining(place) as new:
+            write_dataset(new / _DATA, as_text(self.dataset), exact=True)
+            shutil.copyfile(begun.base.path, new / _FMU)
+            write_file(new / _KEPT, plain)
         return place / _KEPT
 
     @classmethod
@@ -268,9 +272,12 @@ class Fit(Shown):
     def report(self, folder: Path | str) -> dict[str, Path]:
         """Write report.html, its pictures and parameters.toml; name -> path."""
         from pysim.present import write_report
+        from pysim.present.report import joining
 
-        Path(folder).mkdir(parents=True, exist_ok=True)
-        return write_report(Path(folder), self._whole())
+        place = path_of(folder, "folder")
+        with joining(place) as new:
+            files = write_report(new, self._whole())
+        return {name: place / path.name for name, path in files.items()}
 
     def _whole(self) -> Any:
         from pysim.present.fit import Fitted

@@ -12,7 +12,7 @@ import numpy as np
 
 from pysim.io.named_columns import optional_package
 from pysim.io.prepare import logs_called
-from pysim.nouns.common import Input, Measured, dataset_of, libraries_of, signal_of
+from pysim.nouns.common import Input, Measured, dataset_of, libraries_of, path_of, signal_of
 from pysim.nouns.run import Run
 from pysim.nouns.table import EXTRA, Shown, Table
 from pysim.types import (
@@ -486,7 +486,13 @@ class Model(Shown):
 
         systems = (platforms,) if isinstance(platforms, str) else tuple(platforms)
         return export_model(
-            self.base, self.variants, self.effects_in, self.values, Path(folder), fmi=fmi, platforms=systems
+            self.base,
+            self.variants,
+            self.effects_in,
+            self.values,
+            path_of(folder, "folder"),
+            fmi=fmi,
+            platforms=systems,
         )
 
     def _log(self, log: MeasuredRecord, dt: float | None) -> tuple[Any, float, dict[str, Signal]]:

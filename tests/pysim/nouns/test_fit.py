@@ -147,6 +147,18 @@ def test_it_draws_and_is_reported(fitted: Fit, tmp_path: Path) -> None:
     assert "poor" in fitted.summary()
 
 
+def test_a_report_replaces_an_earlier_one_and_no_file_of_the_user(fitted: Fit, tmp_path: Path) -> None:
+    first = fitted.report(tmp_path)
+    assert fitted.report(tmp_path) == first
+    mine = tmp_path / "other"
+    mine.mkdir()
+    for name in ("parameters.toml", "notes.txt"):
+        (mine / name).write_text("mine")
+    with pytest.raises(BadInput, match=r"parameters.toml is there already"):
+        fitted.report(mine)
+    assert {path.name: path.read_text() for path in mine.iterdir()} == {"parameters.toml": "mine", "notes.txt": "mine"}
+
+
 def test_a_fit_that_was_saved_is_the_same_again(mass: Model, tmp_path: Path) -> None:
     wanted = mass.set(k=20.5).free("d", "k", m=(0.6, 4)).with_effects("toy.friction")
     for name, found in (
@@ -164,8 +176,13 @@ def test_a_fit_that_was_saved_is_the_same_again(mass: Model, tmp_path: Path) -> 
             assert again.found[one.name].std == pytest.approx(one.std, rel=0.01)
         assert again.signals["x noise"] == pytest.approx(found.signals["x noise"], rel=1e-3)
         assert again.warnings == found.warnings
-    with pytest.raises(BadInput, match="holds files already"):
-        found.save(tmp_path / "added")
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "model.fmu").write_text("mine")
+    for there in ("added", "mine"):
+        before = {path: path.read_bytes() for path in (tmp_path / there).rglob("*") if path.is_file()}
+        with pytest.raises(BadInput, match="holds files already"):
+            found.save(tmp_path / there)
+        assert before == {path: path.read_bytes() for path in (tmp_path / there).rglob("*") if path.is_file()}
     with pytest.raises(BadInput, match=r"fit\.save"):
         Fit.load(tmp_path)
 

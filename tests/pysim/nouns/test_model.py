@@ -181,5 +181,10 @@ def test_a_run_prints_draws_and_is_saved(mass: Model, tmp_path: Path) -> None:
     assert len(repr(run)) < 2000 > len(run._repr_html_())
     assert run.table.row("x")["at the end"] == run["x"][-1]
     assert len(run.plot().axes) == 2  # m and m/s
-    assert run.save(tmp_path / "run.csv").read_text().count("\n") > 500
+    for _ in range(2):  # a run that was saved there is replaced
+        assert run.save(tmp_path / "run.csv").read_text().count("\n") > 500
+    (tmp_path / "bench.csv").write_text("t,x\n0,1\n")
+    with pytest.raises(BadInput, match=r"bench.csv is there already and holds no run; name another file"):
+        run.save(tmp_path / "bench.csv")
+    assert (tmp_path / "bench.csv").read_text() == "t,x\n0,1\n"
     assert math.isclose(run.time[-1], 1.0)
