@@ -9,6 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from pysim.types import BadInput, Dataset, Signal
+from pysim.types.kinds import path_of
 
 _POINTS = 2001  # at which a function of time is looked at
 
@@ -45,13 +46,6 @@ def dataset_of(data: Measured) -> Dataset:
         f"data: {type(data).__name__} holds no measurements; give what pysim.load(...) returns, or a folder",
         argument="data",
     )
-
-
-def path_of(given: Path | str, argument: str) -> Path:
-    """A path of what is given as one."""
-    if isinstance(given, str | Path):
-        return Path(given)
-    raise BadInput(f"{argument}: {type(given).__name__} is no path; write it as a text", argument=argument)
 
 
 def libraries_of(library: Path | str | Sequence[Path | str]) -> tuple[Path, ...]:

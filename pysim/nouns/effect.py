@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pysim.nouns.common import path_of
 from pysim.nouns.model import Model, opened
 from pysim.nouns.table import Shown, Table
 from pysim.types import BadInput
 from pysim.types import Effect as Described
+from pysim.types.kinds import path_of
 
 if TYPE_CHECKING:
     from pysim.effects import Slot

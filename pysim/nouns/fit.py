@@ -10,13 +10,14 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pysim.nouns.common import Measured, dataset_of, libraries_of, path_of
-from pysim.nouns.model import Model
+from pysim.nouns.common import Measured, dataset_of, libraries_of
+from pysim.nouns.model import Model, model_given
 from pysim.nouns.run import Run
 from pysim.nouns.table import Shown, Table
 from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent
 from pysim.types import Fit as Found
+from pysim.types.kinds import names_of, path_of
 
 if TYPE_CHECKING:
     from pysim.identify.greybox import Problem, Profile, Tried
@@ -56,9 +57,11 @@ def fit(
     from pysim.identify.greybox import Effort
     from pysim.workflow import fitted
 
-    dataset, outputs = dataset_of(data), tuple(outputs)
+    model, dataset, outputs = model_given(model, "fit"), dataset_of(data), names_of(outputs, "outputs")
     problem = _problem(model, dataset, initial, outputs)
-    log = None if folder is None else Path(folder)
+    log = None if folder is None else path_of(folder, "folder")
+    if log is not None and log.is_file():
+        raise BadInput(f"fit: {log} is a file; name a folder that keeps the search", argument="folder")
     with showing(progress, f"fitting {model.name}") as say:
 
         def heard(tried: Tried) -> None:

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.nouns.common import path_of
 from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import BadInput, Note, Outcome, Record
+from pysim.types.kinds import path_of
 
 
 @dataclass(frozen=True, repr=False)

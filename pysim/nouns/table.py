@@ -183,9 +183,9 @@ def _is_number(value: Any) -> bool:
 def _cells(row: Mapping[str, Any]) -> list[str]:
     """Of a row; a value and the ends of its interval with as many digits as tell them apart."""
     texts = {name: _cell(value) for name, value in row.items()}
-    value, low, high = (row.get(name) for name in _INTERVAL)
-    if all(isinstance(number, float) and math.isfinite(number) for number in (value, low, high)):
-        texts |= zip(_INTERVAL, with_interval(value, (low, high)), strict=True)
+    three = [number for name in _INTERVAL if isinstance(number := row.get(name), float) and math.isfinite(number)]
+    if len(three) == len(_INTERVAL):
+        texts |= zip(_INTERVAL, with_interval(three[0], (three[1], three[2])), strict=True)
     return [*texts.values()]
 
 

@@ -134,6 +134,10 @@ def test_what_stands_still_or_is_not_free_is_refused(mass: Model, data: Dataset)
         pysim.fit(mass.fix("m", "d", "k"), data)
     with pytest.raises(BadInput, match="initial"):
         pysim.fit(mass, data, initial="resting")
+    with pytest.raises(BadInput, match=r"fit: a str is no model; give what pysim.model\(...\) returns"):
+        pysim.fit("Toy.Mass", data)  # type: ignore[arg-type]
+    with pytest.raises(BadInput, match=r"fit: .* is a file; name a folder"):
+        pysim.fit(mass, data, folder=__file__)
 
 
 def test_it_draws_and_is_reported(fitted: Fit, tmp_path: Path) -> None:
@@ -147,9 +151,7 @@ def test_it_draws_and_is_reported(fitted: Fit, tmp_path: Path) -> None:
     assert "poor" in fitted.summary()
 
 
-def test_a_report_replaces_an_earlier_one_and_no_file_of_the_user(fitted: Fit, tmp_path: Path) -> None:
-    first = fitted.report(tmp_path)
-    assert fitted.report(tmp_path) == first
+def test_a_report_replaces_no_file_of_the_user(fitted: Fit, tmp_path: Path) -> None:
     mine = tmp_path / "other"
     mine.mkdir()
     for name in ("parameters.toml", "notes.txt"):
