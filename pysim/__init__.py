@@ -11,6 +11,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from pysim.nouns import Comparison, Data, Diagnosis, Effect, Fit, Model
     from pysim.nouns.comparison import compare
     from pysim.nouns.cosimulation import cosimulate
     from pysim.nouns.data import load
@@ -22,21 +23,27 @@ if TYPE_CHECKING:
     from pysim.types import BadInput
     from pysim.workflow import open_session
 
-_HOMES = {
-    "BadInput": "pysim.types",
-    "compare": "pysim.nouns.comparison",
-    "cosimulate": "pysim.nouns.cosimulation",
-    "diagnose": "pysim.nouns.diagnosis",
-    "effect": "pysim.nouns.effect",
-    "example": "pysim.nouns.example",
-    "fit": "pysim.nouns.fit",
-    "load": "pysim.nouns.data",
-    "locate": "pysim.nouns.diagnosis",
-    "model": "pysim.nouns.model",
-    "open_session": "pysim.workflow",
+_FILES = {
+    "nouns": ("Comparison", "Data", "Diagnosis", "Effect", "Fit", "Model"),
+    "nouns.comparison": ("compare",),
+    "nouns.cosimulation": ("cosimulate",),
+    "nouns.data": ("load",),
+    "nouns.diagnosis": ("diagnose", "locate"),
+    "nouns.effect": ("effect",),
+    "nouns.example": ("example",),
+    "nouns.fit": ("fit",),
+    "nouns.model": ("model",),
+    "types": ("BadInput",),
+    "workflow": ("open_session",),
 }
 __all__ = [
     "BadInput",
+    "Comparison",
+    "Data",
+    "Diagnosis",
+    "Effect",
+    "Fit",
+    "Model",
     "compare",
     "cosimulate",
     "diagnose",
@@ -51,8 +58,9 @@ __all__ = [
 
 
 def __getattr__(name: str) -> Any:
-    if name in _HOMES:
-        return getattr(import_module(_HOMES[name]), name)
+    for file, names in _FILES.items():
+        if name in names:
+            return getattr(import_module(f"{__name__}.{file}"), name)
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
 
 

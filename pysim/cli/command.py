@@ -39,6 +39,7 @@ from typing import TYPE_CHECKING, Any
 
 from pysim.cli.option import Option, Role
 from pysim.cli.outputs import LOG, answer_folder, prepare_answer, prepare_file, refuse_same
+from pysim.present.report import no_empty_folders
 from pysim.workflow import command_line
 
 if TYPE_CHECKING:
@@ -83,9 +84,11 @@ class Command:
                 return part.execute(parsed, (*ahead, self.name))
         assert self.run is not None
         given = Given(self, parsed, (*ahead, self.name))
-        _prepare(given)
-        result = self.run(given)
-        return result if isinstance(result, int) else _shown(given, result)
+        folders, files = (_flat(given.paths(role)) for role in (Role.FOLDER, Role.FILE))
+        with no_empty_folders([*folders, *(file.parent for file in files)]):
+            _prepare(given)
+            result = self.run(given)
+            return result if isinstance(result, int) else _shown(given, result)
 
 
 class Given:

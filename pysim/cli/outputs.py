@@ -12,11 +12,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from pysim.present.report import CHECKPOINT, MARKER, mark
+from pysim.present.report import CHECKPOINT, MARKER, NEW, listed, mark
 
 LOG = "log"  # in the folder: what a stopped fit goes on from
 _GO_ON = (LOG, CHECKPOINT)
-_NEW = ".pysim-new"  # in the folder while an answer is written
 _OF_THE_SYSTEM = {".DS_Store", "Thumbs.db", "desktop.ini"}  # whoever looks into a folder leaves one; they stay
 # What a stopped run goes on from; it lies there before any answer does. A kill may leave half of it under another name.
 _UNFINISHED = re.compile(
@@ -127,7 +126,7 @@ def prepare_answer(
             raise BadInput(
                 f"--output {folder}: {path} is read, and the new answer would replace it; choose another folder"
             )
-    ours = _listed(folder) | _inside(folder, beside)
+    ours = listed(folder) | _inside(folder, beside)
     other = next((name for name in _files(folder) if name not in ours and not _is_unfinished(name, goes_on)), None)
     if other is not None and _is_unfinished(other, _GO_ON):
         raise BadInput(
@@ -149,7 +148,7 @@ def answer_folder(folder: Path, *, beside: Iterable[Path | None] = ()) -> Iterat
     Args:
         beside: other results of the same run, files and folders; those that lie in the folder stay there.
     """
-    new = folder / _NEW
+    new = folder / NEW
     shutil.rmtree(new, ignore_errors=True)  # of a run that was killed
     new.mkdir(parents=True)
     try:
@@ -161,7 +160,7 @@ def answer_folder(folder: Path, *, beside: Iterable[Path | None] = ()) -> Iterat
 
 def _replace(folder: Path, new: Path, beside: set[str]) -> None:
     """Move the files of the new answer in; every state in between is known to be ours."""
-    coming, earlier, there = {path.name for path in new.iterdir()}, _listed(folder), set(_files(folder))
+    coming, earlier, there = {path.name for path in new.iterdir()}, listed(folder), set(_files(folder))
     kept = beside | {name for name in there if any(name.startswith(f"{one}/") for one in beside)}
     mark(folder, earlier | coming | kept)
     for name in sorted((earlier & there) - coming - kept):
@@ -180,17 +179,11 @@ def _remove(folder: Path, path: Path) -> None:
                 (folder / parent).rmdir()
 
 
-def _listed(folder: Path) -> set[str]:
-    """Our files, by the marker."""
-    marker = folder / MARKER
-    return set(marker.read_text(encoding="utf-8", errors="replace").splitlines()) if marker.is_file() else set()
-
-
 def _files(folder: Path) -> Iterator[str]:
     """All files, but for the marker, what a killed run was writing, and what the system leaves."""
     for path in folder.rglob("*") if folder.is_dir() else ():
         name = path.relative_to(folder).as_posix()
-        known = name == MARKER or path.name in _OF_THE_SYSTEM or name.partition("/")[0] == _NEW
+        known = name == MARKER or path.name in _OF_THE_SYSTEM or name.partition("/")[0] == NEW
         if not known and (path.is_symlink() or not path.is_dir()):
             yield name
 

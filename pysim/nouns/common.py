@@ -9,6 +9,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from pysim.types import BadInput, Dataset, Signal
+from pysim.types.kinds import path_of
 
 _POINTS = 2001  # at which a function of time is looked at
 
@@ -50,7 +51,7 @@ def dataset_of(data: Measured) -> Dataset:
 def libraries_of(library: Path | str | Sequence[Path | str]) -> tuple[Path, ...]:
     """One library or several, as paths; each has to be there."""
     places = [library] if isinstance(library, Path | str) else library
-    found = tuple(Path(one).absolute() for one in places)
+    found = tuple(path_of(one, "library").absolute() for one in places)
     for place in found:
         if not place.exists():
             raise BadInput(

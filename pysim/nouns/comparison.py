@@ -15,6 +15,7 @@ from pysim.nouns.table import Shown, Table
 from pysim.nouns.where import Where
 from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Criterion, Dataset, Note, ProgressEvent, RecordFit
+from pysim.types.kinds import mapping_of
 
 if TYPE_CHECKING:
     from pysim.workflow import Initial
@@ -107,7 +108,7 @@ class Comparison(Shown):
                 )
             return {one.symbol: one.limit for one in _thesis(self.records)}
         known = [*_AT_LEAST, "rms", "x noise"]
-        for name in self.criteria:
+        for name in mapping_of(self.criteria, "criteria"):
             if name not in known:
                 raise BadInput(
                     f"criteria: there is no column {name!r}; limits are for {', '.join(known)}", argument="criteria"

@@ -14,6 +14,7 @@ from pysim.nouns.run import Run
 from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Experiment, Note, NoteCode, ProgressEvent
 from pysim.types import Model as Compiled
+from pysim.types.kinds import mapping_of, names_of, number_of
 
 if TYPE_CHECKING:
     from pysim.cosim.members import Fmu
@@ -54,13 +55,15 @@ def cosimulate(
     from pysim.cosim._prepare import check_heard, unheard
     from pysim.cosim.plain import PlainBlock
 
+    dt, stop = number_of(dt, "dt"), number_of(stop, "stop")
+    members, wires, record = mapping_of(members, "members"), mapping_of(wires, "wires"), names_of(record, "record")
     if not dt > 0 or not stop >= dt:
         raise BadInput(
             f"cosimulate: dt = {dt:g} s and stop = {stop:g} s; give a stop of at least one dt, above zero",
             argument="stop",
         )
-    pairs = [(a, one) for a, b in wires.items() for one in ([b] if isinstance(b, str) else b)]
-    driven = {name: signal_of(value, stop, name) for name, value in (inputs or {}).items()}
+    pairs = [(a, one) for a, b in wires.items() for one in names_of(b, "wires")]
+    driven = {name: signal_of(value, stop, name) for name, value in mapping_of(inputs, "inputs").items()}
     targets = {*(target for _, target in pairs), *driven}
     parts = _parts(members, pairs, targets, dt)
     plain = [one.block for one in parts if isinstance(one, Sampled) and isinstance(one.block, PlainBlock)]

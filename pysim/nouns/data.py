@@ -39,6 +39,7 @@ from pysim.nouns.data_check import Check
 from pysim.nouns.model import Model
 from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
+from pysim.types.kinds import mapping_of, names_of, number_of, path_of
 
 
 @dataclass(frozen=True, repr=False)
@@ -113,11 +114,11 @@ class Data(Shown):
 
     def trim(self, start: float | None = None, stop: float | None = None, *, logs: Iterable[str] = ()) -> Data:
         """Leave out what is ahead of `start` s and behind `stop` s on the clock of each log, or of those named."""
-        return self.after(Trim(_number(start), _number(stop), _texts(logs)))
+        return self.after(Trim(_number(start, "start"), _number(stop, "stop"), names_of(logs, "logs")))
 
     def exclude(self, log: str, start: float | None = None, stop: float | None = None) -> Data:
         """Leave out the stretch from `start` to `stop` s of a log, which becomes two; without them, all of it."""
-        return self.after(Exclude(log, _number(start), _number(stop)))
+        return self.after(Exclude(log, _number(start, "start"), _number(stop, "stop")))
 
     def fill_gaps(self, longest: float, *, shortest: int = 10) -> Data:
         """Fill missing samples up to `longest` s by straight lines; cut logs where more is missing.
@@ -125,31 +126,31 @@ class Data(Shown):
         Args:
             shortest: samples; pieces of fewer are left out.
         """
-        return self.after(FillGaps(float(longest), shortest))
+        return self.after(FillGaps(number_of(longest, "longest"), shortest))
 
     def drop_outliers(self, sigmas: float = 8.0, *signals: str) -> Data:
         """Put straight lines in place of samples that are so many standard deviations off their neighbours."""
-        return self.after(DropOutliers(float(sigmas), signals))
+        return self.after(DropOutliers(number_of(sigmas, "sigmas"), names_of(signals, "signals")))
 
     def resample(self, hz: float) -> Data:
         """Sample evenly at another rate, with a filter ahead of a lower one."""
-        return self.after(Resample(float(hz)))
+        return self.after(Resample(number_of(hz, "hz")))
 
     def lowpass(self, hz: float, *signals: str) -> Data:
         """Take off what is faster than `hz`, without phase; of all signals where none is named."""
-        return self.after(LowPass(float(hz), signals))
+        return self.after(LowPass(number_of(hz, "hz"), names_of(signals, "signals")))
 
     def detrend(self, *signals: str, order: int = 0) -> Data:
         """Take the mean (order 0) or the line (1) off signals, log by log; off all where none is named."""
-        return self.after(Detrend(signals, order))
+        return self.after(Detrend(names_of(signals, "signals"), order))
 
     def delay(self, signal: str, seconds: float) -> Data:
         """Let a signal come later by so many s; a negative number lets it come earlier, as where its sensor lags."""
-        return self.after(Delay(signal, float(seconds)))
+        return self.after(Delay(signal, number_of(seconds, "seconds")))
 
     def flip(self, *signals: str) -> Data:
         """Turn the sign of signals."""
-        return self.after(Flip(signals))
+        return self.after(Flip(names_of(signals, "signals")))
 
     def scale(self, signal: str, factor: float = 1.0, offset: float = 0.0, unit: str = "", *, of: str = "") -> Data:
         """Multiply a signal in the unit it was logged in, and add an offset; the result is in `unit`, else in the same.
@@ -161,19 +162,19 @@ class Data(Shown):
             BadInput: no such signal, or a unit that is not known.
         """
         of = of or self.units.get(signal, "")
-        return self.after(Scaled(signal, float(factor), float(offset), unit or of, of))
+        return self.after(Scaled(signal, number_of(factor, "factor"), number_of(offset, "offset"), unit or of, of))
 
     def rename(self, names: Mapping[str, str] | None = None, **more: str) -> Data:
         """Give signals other names, old="new"; two may swap theirs."""
-        return self.after(Rename({**(names or {}), **more}))
+        return self.after(Rename({**mapping_of(names, "names"), **more}))
 
     def hold_out(self, *names: str) -> Data:
         """Keep logs to report the error on: nothing is fitted to them, and nothing is chosen with them."""
-        return self.after(HoldOut(names))
+        return self.after(HoldOut(names_of(names, "names")))
 
     def split(self, share: float) -> Data:
         """Cut each log in two, and hold out the second part; the first has that share of its samples."""
-        return self.after(Split(float(share)))
+        return self.after(Split(number_of(share, "share")))
 
     def check(self, model: Any = None) -> Check:
         """What should be looked at before anything is fitted, each with the line that cures it.
@@ -251,7 +252,9 @@ class Data(Shown):
         Raises:
             BadInput: the folder holds something, or cannot be written.
         """
-        return write_dataset(folder, as_text(self.raw), units=self.logged, steps=self.history, exact=True)
+        return write_dataset(
+            path_of(folder, "folder"), as_text(self.raw), units=self.logged, steps=self.history, exact=True
+        )
 
     def _unit(self, signal: str) -> str:
         """In which people read a signal."""
@@ -315,7 +318,8 @@ def load(
     Raises:
         BadInput: what cannot be read, is not there, or must be asked for, with its place and the cure.
     """
-    given = {"time": time, "units": units, "noise": noise, "variables": variables, "hold": hold}
+    named = {"units": units, "noise": noise, "variables": variables, "hold": hold}
+    given = {"time": time, **{what: mapping_of(own, what) for what, own in named.items()}}
     if _describes_itself(source):
         extra = [name for name, value in {"inputs": inputs, "outputs": outputs, **given}.items() if value]
         if extra:
@@ -353,12 +357,8 @@ def _record(run: Any) -> Record:
     return found
 
 
-def _number(value: float | None) -> float | None:
-    return None if value is None else float(value)
-
-
-def _texts(names: Iterable[str]) -> tuple[str, ...]:
-    return (names,) if isinstance(names, str) else tuple(names)
+def _number(value: float | None, argument: str) -> float | None:
+    return None if value is None else number_of(value, argument)
 
 
 def _short(text: str, most: int) -> str:

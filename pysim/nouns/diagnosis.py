@@ -12,12 +12,13 @@ from typing import TYPE_CHECKING, Any
 from pysim.nouns.common import Measured, dataset_of
 from pysim.nouns.fit import Fit
 from pysim.nouns.law import Law, laws_of
-from pysim.nouns.model import Model
+from pysim.nouns.model import Model, model_given
 from pysim.nouns.table import Shown, Table
 from pysim.nouns.where import Where
 from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Dataset
 from pysim.types import Diagnosis as Answer
+from pysim.types.kinds import names_of, path_of
 
 if TYPE_CHECKING:
     from pysim.workflow import Initial, SessionParts
@@ -57,8 +58,8 @@ def diagnose(
         raise BadInput(
             f"diagnose: the model has {names} already; diagnose the one without, which has it as a candidate"
         )
-    parts = _parts(model, dataset, begin, effects)
-    work = partial(searched, checkpoint=None if checkpoint is None else Path(checkpoint))
+    parts = _parts(model, dataset, begin, names_of(effects, "effects"))
+    work = partial(searched, checkpoint=None if checkpoint is None else path_of(checkpoint, "checkpoint"))
     found = _asked(parts, work, progress, f"diagnosing {model.name}", Settings(max_effects=max_effects))
     return Diagnosis(found, replace(model, measured=dataset, initial=begin), parts)
 
@@ -82,7 +83,9 @@ def locate(
 
     model, dataset, begin = _given(subject, data, initial)
     parts = _parts(replace(model, effects_in=()), dataset, begin)
-    work = partial(learn, effects=model.effects_in, checkpoint=None if checkpoint is None else Path(checkpoint))
+    work = partial(
+        learn, effects=model.effects_in, checkpoint=None if checkpoint is None else path_of(checkpoint, "checkpoint")
+    )
     return laws_of(_asked(parts, work, progress, f"locating what {model.name} lacks"), model)
 
 
@@ -91,10 +94,7 @@ def _given(subject: Subject, data: Measured | None, initial: Initial) -> tuple[M
     if isinstance(subject, Fit):
         dataset = subject.dataset if data is None else dataset_of(data)
         return subject.model, dataset, subject.initial if initial is None else initial
-    if not isinstance(subject, Model):
-        raise BadInput(
-            f"{type(subject).__name__} is no model; give what pysim.model or pysim.fit returns", argument="subject"
-        )
+    subject = model_given(subject, "diagnose and locate", "subject")
     if data is None:
         raise BadInput(
             "a model alone has no measurements; write diagnose(model, data), or diagnose(fit)", argument="data"
@@ -231,14 +231,16 @@ class Diagnosis(Shown):
         """Write report.html with its pictures, the fitted values, and class and FMU where effects were added."""
         from pysim.present import write_report
         from pysim.present.diagnosis import answered
+        from pysim.present.report import joining
         from pysim.workflow import write_extended
 
-        place = Path(folder)
-        place.mkdir(parents=True, exist_ok=True)
-        files = write_extended(self.found, self.parts, place)
-        beside = {name: path.name for name, path in files.items()}
-        result = answered("diagnose", self.found, self.parts.dataset, self.parts.model_name, beside)
-        return write_report(place, result) | files
+        place = path_of(folder, "folder")
+        with joining(place) as new:
+            files = write_extended(self.found, self.parts, new)
+            beside = {name: path.name for name, path in files.items()}
+            result = answered("diagnose", self.found, self.parts.dataset, self.parts.model_name, beside)
+            files = write_report(new, result) | files
+        return {name: place / path.name for name, path in files.items()}
 
     @property
     def table(self) -> Table:

@@ -12,6 +12,7 @@ from pysim.nouns.model import Model, opened
 from pysim.nouns.table import Shown, Table
 from pysim.types import BadInput
 from pysim.types import Effect as Described
+from pysim.types.kinds import path_of
 
 if TYPE_CHECKING:
     from pysim.effects import Slot
@@ -133,7 +134,11 @@ class Effect(Shown):
         Raises:
             BadInput: the file is there already and holds something else.
         """
-        place = Path(folder) / self.file.name
+        place = path_of(folder, "folder") / self.file.name
+        if place.parent.is_file() or place.parent.suffix == ".mo":
+            raise BadInput(
+                f"{place.parent}: the class goes into {place.name}; name the folder of it", argument="folder"
+            )
         place.parent.mkdir(parents=True, exist_ok=True)
         if place.exists() and place.read_text(encoding="utf-8") != self.modelica:
             raise BadInput(f"{place} is there already; give the effect another name or folder")

@@ -11,12 +11,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pysim.nouns.common import Measured, dataset_of, libraries_of
-from pysim.nouns.model import Model
+from pysim.nouns.model import Model, model_given
 from pysim.nouns.run import Run
 from pysim.nouns.table import Shown, Table
 from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent
 from pysim.types import Fit as Found
+from pysim.types.kinds import names_of, path_of
 
 if TYPE_CHECKING:
     from pysim.identify.greybox import Problem, Profile, Tried
@@ -56,9 +57,11 @@ def fit(
     from pysim.identify.greybox import Effort
     from pysim.workflow import fitted
 
-    dataset, outputs = dataset_of(data), tuple(outputs)
+    model, dataset, outputs = model_given(model, "fit"), dataset_of(data), names_of(outputs, "outputs")
     problem = _problem(model, dataset, initial, outputs)
-    log = None if folder is None else Path(folder)
+    log = None if folder is None else path_of(folder, "folder")
+    if log is not None and log.is_file():
+        raise BadInput(f"fit: {log} is a file; name a folder that keeps the search", argument="folder")
     with showing(progress, f"fitting {model.name}") as say:
 
         def heard(tried: Tried) -> None:
@@ -223,10 +226,9 @@ class Fit(Shown):
         """
         from pysim.io import write_dataset, write_file
         from pysim.nouns.data import as_text
+        from pysim.present.report import joining
 
-        place, begun = Path(folder), self.begun
-        write_dataset(place / _DATA, as_text(self.dataset), exact=True)
-        shutil.copyfile(begun.base.path, place / _FMU)
+        place, begun = path_of(folder, "folder"), self.begun
         asked = {
             **{name: getattr(begun, name) for name in _SAID},
             "libraries": [str(one) for one in begun.libraries],
@@ -239,7 +241,12 @@ class Fit(Shown):
             "search": {name: getattr(self.found, name) for name in ("message", "iterations", "start_cost")},
         }
         plain = json.dumps(asked, indent=1, default=lambda one: {**one} if isinstance(one, Mapping) else sorted(one))
-        write_file(place / _KEPT, plain)
+        if place.is_dir() and any(place.iterdir()):
+            raise BadInput(f"{place} holds files already; name a new folder", argument="folder")
+        with joining(place) as new:
+            write_dataset(new / _DATA, as_text(self.dataset), exact=True)
+            shutil.copyfile(begun.base.path, new / _FMU)
+            write_file(new / _KEPT, plain)
         return place / _KEPT
 
     @classmethod
@@ -268,9 +275,12 @@ class Fit(Shown):
     def report(self, folder: Path | str) -> dict[str, Path]:
         """Write report.html, its pictures and parameters.toml; name -> path."""
         from pysim.present import write_report
+        from pysim.present.report import joining
 
-        Path(folder).mkdir(parents=True, exist_ok=True)
-        return write_report(Path(folder), self._whole())
+        place = path_of(folder, "folder")
+        with joining(place) as new:
+            files = write_report(new, self._whole())
+        return {name: place / path.name for name, path in files.items()}
 
     def _whole(self) -> Any:
         from pysim.present.fit import Fitted

@@ -31,6 +31,7 @@ from pysim.types import (
 )
 from pysim.types import Model as Compiled
 from pysim.types._frozen import FrozenMapping
+from pysim.types.kinds import names_of, number_of, path_of
 
 if TYPE_CHECKING:
     from pysim.effects import Slot
@@ -74,13 +75,23 @@ def model(name: Path | str | Compiled, *, library: Path | str | Sequence[Path | 
     places = libraries_of(library)
     if isinstance(name, Compiled):
         return _opened(Model(name, places))
-    text = str(name)
+    text = str(path_of(name, "name"))
     if text.lower().endswith(".mo"):
         file = Path(text).absolute()
         if not file.is_file():
             raise BadInput(f"model {text}: there is no such file; name a .mo file, an .fmu or a class", argument="name")
         return _opened(Model(model_of(class_in(file), [*places, file]), (*places, file)))
     return _opened(Model(model_of(text, places), places))
+
+
+def model_given(given: Any, verb: str, argument: str = "model") -> Model:
+    """The model that a verb was given."""
+    if isinstance(given, Model):
+        return given
+    raise BadInput(
+        f"{verb}: a {type(given).__name__} is no model; give what pysim.model(...) returns, and the data behind it",
+        argument=argument,
+    )
 
 
 def _opened(one: Model) -> Model:
@@ -203,8 +214,7 @@ class Model(Shown):
         """Name, value, min, max, unit, description, and whether a fit may change it."""
         free = set(self.free_names)
         rows = [
-            (v.name, self.values.get(v.name, v.start), *self.bounds.get(v.name, (v.min, v.max)), _unit(v),
-             v.description, v.name in free)
+            (v.name, self.values.get(v.name, v.start), *self._bounds(v), _unit(v), v.description, v.name in free)
             for v in self.compiled.variables
             if v.causality == "parameter"
         ]  # fmt: skip
@@ -237,11 +247,23 @@ class Model(Shown):
     # --- what is said of it ------------------------------------------------------------------------------------------
 
     def set(self, **values: float) -> Model:
-        """Give parameters a value, in their units; a fit leaves them there unless they are named as free."""
+        """Give parameters a value, in their units; a fit leaves them there unless they are named as free.
+
+        Raises:
+            BadInput: no such parameter, or a value outside its bounds: those that `free` gave, else the model's.
+        """
         from pysim.simulate import check_override
 
         for name, value in values.items():
             check_override(self.compiled, name, value)
+            low, high = self._bounds(self.compiled[name])
+            if not (-np.inf if low is None else low) <= value <= (np.inf if high is None else high):
+                unit = self.compiled[name].unit
+                raise BadInput(
+                    f"set: {name} = {value:g} is outside its bounds, {low} to {high} {unit}; correct the value, or the "
+                    f"bounds ahead: model.free({name}=(lowest, highest))",
+                    argument=name,
+                )
         held = self.held | {name for name in values if name not in self.chosen}
         return replace(self, values={**self.values, **values}, held=held)
 
@@ -259,22 +281,24 @@ class Model(Shown):
             BadInput: no such parameter, or bounds that are not two increasing numbers.
         """
         prior = prior or {}
-        names = (*names, *prior)
+        names = (*names_of(names, "free"), *prior)
         for name in (*names, *bounds):
             self._settable(name)
         checked = {}
         for name, pair in bounds.items():
-            if not (isinstance(pair, tuple | list) and len(pair) == 2 and pair[0] < pair[1]):
+            checked[name] = low, high = _pair(name, pair, "range", "lowest, highest")
+            if not low < high:
                 raise BadInput(
-                    f"free: the bounds of {name} are {pair!r}; write {name}=(lowest, highest)", argument=name
+                    f"free: {name} = {pair!r} does not increase; write {name}=(lowest, highest)", argument=name
                 )
-            checked[name] = (float(pair[0]), float(pair[1]))
+        prior = {name: _pair(name, pair, "prior", "mean, standard deviation") for name, pair in prior.items()}
         chosen = tuple(dict.fromkeys([*self.chosen, *names, *bounds]))
         grown = replace(self, bounds={**self.bounds, **checked}, priors={**self.priors, **prior})
         return replace(grown, chosen=chosen, held=self.held - {*names, *bounds})
 
     def fix(self, *names: str, **values: float) -> Model:
         """Let a fit leave these parameters where they are, or at these values."""
+        names = names_of(names, "fix")
         for name in names:
             self._settable(name)
         gone = {*names, *values}
@@ -359,7 +383,7 @@ class Model(Shown):
         from pysim.simulate import Rodas, simulate
         from pysim.workflow import recorded_of
 
-        model, names = self.compiled, recorded_of(self.compiled, record)
+        model, names = self.compiled, recorded_of(self.compiled, names_of(record, "record"))
         drives: dict[str, Signal] = {}
         if isinstance(what, MeasuredRecord):
             begun = None if inputs else self._begun(what, self.initial if initial is None else initial)
@@ -371,7 +395,13 @@ class Model(Shown):
                 return Run(replace(found, time=found.time - later), self.name)
             times, start, drives = self._log(what, dt)
         else:
+            if what is not None and not isinstance(what, int | float | np.number):
+                raise BadInput(
+                    f"simulate: a {type(what).__name__} is neither a time in s nor one log; write simulate(2.0), or "
+                    'simulate(data["run3"])', argument="what",
+                )  # fmt: skip
             stop = float(what if what is not None else model.stop_time or 1.0)
+            dt = None if dt is None else number_of(dt, "dt")
             if not 0 < stop < np.inf or not 0 < (dt or stop) <= stop:
                 raise BadInput(
                     f"simulate: the run ends at {stop:g} s in steps of {dt} s; give times above zero", argument="what"
@@ -484,9 +514,15 @@ class Model(Shown):
         """
         from pysim.workflow import export_model
 
-        systems = (platforms,) if isinstance(platforms, str) else tuple(platforms)
+        systems = names_of(platforms, "platforms")
         return export_model(
-            self.base, self.variants, self.effects_in, self.values, Path(folder), fmi=fmi, platforms=systems
+            self.base,
+            self.variants,
+            self.effects_in,
+            self.values,
+            path_of(folder, "folder"),
+            fmi=fmi,
+            platforms=systems,
         )
 
     def _log(self, log: MeasuredRecord, dt: float | None) -> tuple[Any, float, dict[str, Signal]]:
@@ -513,7 +549,12 @@ class Model(Shown):
 
     def _taking(self, effects: Iterable[str | OwnEffect]) -> tuple[Model, list[Effect]]:
         """The model whose libraries hold these effects, and the effects as its slots take them."""
-        listed = list(effects)
+        listed = [e for one in effects for e in (one if isinstance(one, list | tuple) else [one])]
+        for one in listed:
+            if not isinstance(one, str) and not hasattr(one, "file"):
+                raise BadInput(
+                    f"effects: a {type(one).__name__} is none; name one of the catalogue, or give one of pysim.effect"
+                )
         files = [e.file for e in listed if not isinstance(e, str) and e.file not in self.libraries]
         wider = replace(self, libraries=(*self.libraries, *files)) if files else self
         if not wider.inside.class_name:
@@ -525,10 +566,15 @@ class Model(Shown):
 
         return wider, list(named([e if isinstance(e, str) else e.name for e in listed], wider.inside))
 
+    def _bounds(self, v: Variable) -> tuple[float | None, float | None]:
+        """Those that the user gave, else the model's."""
+        return self.bounds.get(v.name, (v.min, v.max))
+
     def _settable(self, name: str) -> None:
         variable = self.compiled[name]
         if variable.causality != "parameter" and name not in self.compiled.abilities.states:
-            raise BadInput(f"{name} is of causality {variable.causality} in {self.name}; name a parameter")
+            names = [v.name for v in self.compiled.variables if v.causality == "parameter"]
+            raise BadInput(f"{name} is no parameter of {self.name}, which computes or takes it; it has {_some(names)}")
 
     def _variables(self, causality: str) -> Table:
         return _variable_table(f"{causality}s", (v for v in self.compiled.variables if v.causality == causality))
@@ -538,8 +584,8 @@ class Model(Shown):
     @property
     def table(self) -> Table:
         """What a fit may change: value and bounds."""
-        own = [self.parameters.row(name) for name in self.free_names]
-        rows = [tuple(row[column] for column in ("name", "value", "min", "max", "unit")) for row in own]
+        own = [self.compiled[name] for name in self.free_names]
+        rows = [(v.name, self.values.get(v.name, v.start), *self._bounds(v), _unit(v)) for v in own]
         return Table.of(("free", "value", "lowest", "highest", "unit"), rows, key="free")
 
     @property
@@ -586,6 +632,13 @@ def _times(data: Record, dt: float | None) -> Any:
     """Of the rows of a log's run, s."""
     start, stop = float(data.time[0]), float(data.time[-1])
     return data.time if dt is None else np.linspace(start, stop, max(2, round((stop - start) / dt) + 1))
+
+
+def _pair(name: str, given: Any, what: str, words: str) -> tuple[float, float]:
+    """Two numbers that are given for a parameter."""
+    if isinstance(given, tuple | list) and len(given) == 2:
+        return number_of(given[0], name), number_of(given[1], name)
+    raise BadInput(f"free: {given!r} is no {what} of {name}; write {name}=({words})", argument=name)
 
 
 def _some(texts: Sequence[str]) -> str:

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.nouns.table import Shown, Table, pandas
-from pysim.types import Note, Outcome, Record
+from pysim.types import BadInput, Note, Outcome, Record
+from pysim.types.kinds import path_of
 
 
 @dataclass(frozen=True, repr=False)
@@ -74,11 +75,23 @@ class Run(Shown):
         return as_plotly(lines_chart({self.name: self.record})) if interactive else cosim_figure(self.record)
 
     def save(self, file: Path | str) -> Path:
-        """Write it as .csv or .npz, by the name of the file."""
-        from pysim.io import write_record
+        """Write it as .csv or .npz, by the name of the file; a run that was saved there before is replaced.
 
-        write_record(self.record, Path(file))
-        return Path(file)
+        Raises:
+            BadInput: the file is there and holds something else, or cannot be written.
+        """
+        from pysim.io import read_record, write_record
+
+        place = path_of(file, "file")
+        if place.exists():
+            try:
+                read_record(place)
+            except BadInput as error:
+                raise BadInput(
+                    f"{place} is there already and holds no run; name another file", argument="file"
+                ) from error
+        write_record(self.record, place)
+        return place
 
     @property
     def _words(self) -> list[str]:

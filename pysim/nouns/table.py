@@ -9,12 +9,14 @@ from html import escape
 from typing import Any
 
 from pysim.io.named_columns import optional_package
+from pysim.present.plain_text import with_interval
 from pysim.types import BadInput
 from pysim.types._frozen import FrozenMapping
 
 MOST = 1900  # characters of what a noun prints
 _WIDEST = 44  # characters of a cell
 _ROOM = 500  # characters that the tables have at least
+_INTERVAL = ("value", "95 % from", "to")  # columns
 _FIRST = 4  # lines behind the tables that HTML shows too
 EXTRA = '"hydraulic-test-bench[notebook]"'  # what pip calls all that notebooks may want
 
@@ -83,7 +85,7 @@ class Table:
 
     def lines(self, most: int = MOST) -> list[str]:
         """Aligned text, with as many rows as fit into so many characters."""
-        cells = [list(self.columns), *([_cell(value) for value in row.values()] for row in self)]
+        cells = [list(self.columns), *map(_cells, self)]
         right = [all(_is_number(v) for v in column) and len(column) > 0 for column in self.columns.values()]
         widths = [max(map(len, column)) for column in zip(*cells, strict=True)]
         found: list[str] = []
@@ -100,7 +102,7 @@ class Table:
         ahead = f"<table><caption>{escape(self.title)}</caption><tr>" if self.title else "<table><tr>"
         text = ahead + "".join(f"<th>{escape(name)}</th>" for name in self.columns) + "</tr>"
         for k, row in enumerate(self):
-            line = "<tr>" + "".join(f"<td>{escape(_cell(value))}</td>" for value in row.values()) + "</tr>"
+            line = "<tr>" + "".join(f"<td>{escape(text)}</td>" for text in _cells(row)) + "</tr>"
             if len(text) + len(line) > most - 60:
                 text += f"<tr><td>... and {len(self) - k} more</td></tr>"
                 break
@@ -176,6 +178,15 @@ def pandas() -> Any:
 
 def _is_number(value: Any) -> bool:
     return (isinstance(value, int | float) and not isinstance(value, bool)) or value is None
+
+
+def _cells(row: Mapping[str, Any]) -> list[str]:
+    """Of a row; a value and the ends of its interval with as many digits as tell them apart."""
+    texts = {name: _cell(value) for name, value in row.items()}
+    three = [number for name in _INTERVAL if isinstance(number := row.get(name), float) and math.isfinite(number)]
+    if len(three) == len(_INTERVAL):
+        texts |= zip(_INTERVAL, with_interval(three[0], (three[1], three[2])), strict=True)
+    return [*texts.values()]
 
 
 def _cell(value: Any) -> str:

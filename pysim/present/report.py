@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+import shutil
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
 from typing import Any, Protocol, cast
 
 from pysim.present.render import Drawing, Picture, draw
+from pysim.types import BadInput
 
 # The folder of an answer: its page, the names of our files, a line each, and what a stopped diagnosis goes on from.
 PAGE, MARKER, CHECKPOINT = "report.html", ".pysim-answer", "checkpoint.jsonl"
+NEW = ".pysim-new"  # in the folder while an answer is written
 VIEWS = {  # type of a result -> the module that shows it, and that exports the type
     "Approximations": "pysim.present.multisine",
     "Checked": "pysim.present.fmu_check",
@@ -111,6 +115,61 @@ def mark(folder: Path, names: Iterable[str]) -> None:
     from pysim.io import write_file
 
     write_file(folder / MARKER, "".join(f"{name}\n" for name in sorted(names)))
+
+
+def listed(folder: Path) -> set[str]:
+    """Our files, by the marker."""
+    marker = folder / MARKER
+    return set(marker.read_text(encoding="utf-8", errors="replace").splitlines()) if marker.is_file() else set()
+
+
+@contextmanager
+def joining(folder: Path) -> Iterator[Path]:
+    """Give a new folder, whose files join those of `folder` in the end: all of them, or none.
+
+    A file of ours that is there is replaced; one of the user is not touched, and may be there if it is the same.
+
+    Raises:
+        BadInput: another file of the user is there, or the folder cannot be written.
+    """
+    new, ours = folder / NEW, listed(folder)
+    shutil.rmtree(new, ignore_errors=True)  # of a run that was killed
+    with no_empty_folders([folder]):
+        try:
+            new.mkdir(parents=True)
+        except OSError as error:
+            raise BadInput(f"{folder}: cannot write there ({error.strerror or error}); name another folder") from error
+        try:
+            yield new
+            files = {path.relative_to(new).as_posix(): path for path in new.rglob("*") if path.is_file()}
+            if folder.suffix in {path.suffix for path in files.values()}:
+                raise BadInput(
+                    f"{folder}: what is written are {len(files)} files; name a folder, such as {folder.stem}"
+                )
+            theirs = {name for name in files if (folder / name).exists() and name not in ours}
+            for name in theirs:
+                if not (folder / name).is_file() or (folder / name).read_bytes() != files[name].read_bytes():
+                    raise BadInput(
+                        f"{folder / name} is there already and was not written by us; name another folder, or move it"
+                    )
+            mark(folder, ours | {*files} - theirs)
+            for name, path in files.items():
+                (folder / name).parent.mkdir(exist_ok=True)
+                path.replace(folder / name)
+        finally:
+            shutil.rmtree(new, ignore_errors=True)
+
+
+@contextmanager
+def no_empty_folders(paths: Iterable[Path]) -> Iterator[None]:
+    """Take away again what was made of these folders and those above them, where it is empty in the end."""
+    made = {one for path in paths for one in (path, *path.parents) if not one.exists()}
+    try:
+        yield
+    finally:
+        for one in sorted(made, key=lambda one: -len(one.parts)):
+            with suppress(OSError):  # it holds something
+                one.rmdir()
 
 
 def with_places(result: Any, written: Mapping[str, Path], home: Path) -> Any:

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from pysim.io import write_file
+from pysim.present.report import joining
 from pysim.types import BadInput, Effect, Model
 from pysim.workflow.extended import PARAMETERS, copied, extended_name, needed, parameters_text
 from pysim.workflow.variants import Variants
@@ -34,25 +35,23 @@ def export_model(
     Returns:
         "modelica", "fmu" and "parameters" -> path; beside them copies of the user's files that the class needs.
     Raises:
-        BadInput: a class that does not compile, or a folder that cannot be written.
+        BadInput: a class that does not compile, or what `joining` refuses of the folder.
     """
-    folder.mkdir(parents=True, exist_ok=True)
-    files: dict[str, Path] = {}
     own = {name: value for name, value in values.items() if not _is_state(model, name)}
-    if variants is None:
-        files["fmu"] = folder / model.path.name
-        if files["fmu"].resolve() != model.path.resolve():
+    with joining(folder) as new:
+        if variants is None:
+            files = {"fmu": new / model.path.name}
             shutil.copyfile(model.path, files["fmu"])
-    else:
-        name = _name(variants, effects)
-        files |= {"modelica": folder / f"{name}.mo", "fmu": folder / f"{name}.fmu"}
-        about = f"{variants.class_name}{' with ' if effects else ''}{', '.join(effect.name for effect in effects)}."
-        variants.write(effects, folder, files["fmu"], name, own, about, fmi=fmi, platforms=platforms)
-        files |= copied(needed(variants, effects), folder)
-    if own:
-        files["parameters"] = folder / PARAMETERS
-        write_file(files["parameters"], parameters_text(f"Of {files['fmu'].stem}.", own))
-    return files
+        else:
+            name = _name(variants, effects)
+            files = {"modelica": new / f"{name}.mo", "fmu": new / f"{name}.fmu"}
+            about = f"{variants.class_name}{' with ' if effects else ''}{', '.join(effect.name for effect in effects)}."
+            variants.write(effects, new, files["fmu"], name, own, about, fmi=fmi, platforms=platforms)
+            files |= {copy.stem: copy for copy in copied(needed(variants, effects), new, f"{name}.mo").values()}
+        if own:
+            files["parameters"] = new / PARAMETERS
+            write_file(files["parameters"], parameters_text(f"Of {files['fmu'].stem}.", own))
+    return {name: folder / path.name for name, path in files.items()}
 
 
 def _name(variants: Variants, effects: Sequence[Effect]) -> str:

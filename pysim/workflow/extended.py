@@ -37,9 +37,10 @@ def write_extended(found: Diagnosis, parts: SessionParts, folder: Path) -> dict[
         values = {key: value for key, value in {**parts.overrides, **fitted}.items() if key not in states}
         inside = [law for law in found.learned if folder / law_file(law) in variants.libraries]
         needs = needed(variants, effects)
-        comment = _comment(found, parts, [f"{name}.mo", *(one.name for one in needs)], inside)
+        copies = copied(needs, folder, f"{name}.mo")
+        comment = _comment(found, parts, [f"{name}.mo", *(copies.get(one, one).name for one in needs)], inside)
         variants.write(effects, folder, fmu, name, values, comment)
-        files = {"modelica": folder / f"{name}.mo", "fmu": fmu, **copied(needs, folder)}
+        files = {"modelica": folder / f"{name}.mo", "fmu": fmu, **{copy.stem: copy for copy in copies.values()}}
         about = f"{name}, the class in {name}.mo, fitted to data set {parts.dataset.name}."
     else:
         set_ = ", ".join(f"{name} = {float(value)!r}" for name, value in parts.overrides.items())
@@ -68,12 +69,21 @@ def needed(variants: Variants, effects: Sequence[Effect]) -> list[Path]:
     return [one for one in libraries.places if any(file in used for file, _ in files_of(one))]
 
 
-def copied(libraries: Sequence[Path], folder: Path) -> dict[str, Path]:
-    """Name -> where a library that is one file lies in the folder now."""
-    files = {one: folder / one.name for one in libraries if one.is_file()}
-    for one, copy in files.items():
-        write_file(copy, one.read_bytes())
-    return {copy.stem: copy for copy in files.values()}
+def copied(libraries: Sequence[Path], folder: Path, *taken: str) -> dict[Path, Path]:
+    """Copy the libraries that are one file into a folder; library -> its copy, with a number where its name is taken.
+
+    Args:
+        taken: names of files that will lie there too.
+    """
+    names, copies = {name.casefold() for name in taken}, {}
+    files = [one for one in libraries if one.is_file()]
+    for one in sorted(files, key=lambda one: one.parent != folder):  # what lies there already keeps its name
+        tries = (one.name, *(f"{one.stem}-{k}{one.suffix}" for k in range(2, len(files) + len(taken) + 1)))
+        name = next(name for name in tries if name.casefold() not in names)
+        names.add(name.casefold())
+        copies[one] = folder / name
+        write_file(folder / name, one.read_bytes())
+    return copies
 
 
 def parameters_text(about: str, values: Mapping[str, float]) -> str:

@@ -28,6 +28,7 @@ from pysim.identify.greybox.settings import FitSettings
 from pysim.io import in_model_units
 from pysim.types import BadInput, Dataset, Fit, Model, Record
 from pysim.types.dataset import INITIAL
+from pysim.types.kinds import number_of
 from pysim.workflow.free import Bounds, free_parameters
 
 Initial = str | Mapping[str, float] | None  # "rest", "estimate", state -> value, or None as the data say
@@ -164,7 +165,7 @@ def initial_values(model: Model, initial: Mapping[str, float]) -> dict[str, floa
                 f"initial: {name} is no state of {model.label}; its states: {', '.join(states) or 'none'}",
                 argument="initial",
             )
-    return dict(initial)
+    return {name: number_of(value, "initial") for name, value in initial.items()}
 
 
 def _refuse_still(datasets: Sequence[Dataset]) -> None:

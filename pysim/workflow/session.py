@@ -11,6 +11,7 @@ from typing import Literal
 from pysim.diagnosis import Session, Settings, session
 from pysim.io import in_model_units
 from pysim.types import BadInput, Dataset, Effect, Model, Note, NoteCode
+from pysim.types.kinds import names_of
 from pysim.workflow.built_in import built_in
 from pysim.workflow.data import BY_DATA, data_of, reference_of
 from pysim.workflow.free import Bounds, begun_at, free_parameters, suggested
@@ -90,7 +91,8 @@ def open_session(
     opened = model if isinstance(model, Model) else model_of(model, libraries)
     dataset = data if isinstance(data, Dataset) else data_of(data)
     parts = session_parts(
-        opened, dataset, libraries=libraries, free=free, bounds=bounds or {}, values=values or {}, effects=effects,
+        opened, dataset, libraries=libraries, free=names_of(free, "free"), bounds=bounds or {}, values=values or {},
+        effects=names_of(effects, "effects"),
         reference_hz=reference_of(dataset.responses(), reference_hz),
     )  # fmt: skip
     return session_of(parts, settings)

@@ -11,13 +11,14 @@ NOUNS = ("Comparison", "Data", "Diagnosis", "Effect", "Fit", "Model")
 
 
 def test_the_verbs_and_the_nouns_are_there() -> None:
-    assert dir(pysim) == sorted(["BadInput", "open_session", *VERBS])
+    assert dir(pysim) == sorted(["BadInput", "open_session", *NOUNS, *VERBS])
     for name in VERBS:
         found = getattr(pysim, name)
         assert found.__name__ == name
         assert found.__doc__, name
     assert tuple(nouns.__all__) == NOUNS
-    assert [getattr(nouns, name).__name__ for name in NOUNS] == list(NOUNS)
+    assert [getattr(pysim, name) for name in NOUNS] == [getattr(nouns, name) for name in NOUNS]
+    assert [getattr(pysim, name).__name__ for name in NOUNS] == list(NOUNS)
 
 
 def test_type_checkers_are_told_that_there_are_types() -> None:

@@ -18,6 +18,7 @@ from pysim.present.diagnosis.figures.criteria import criteria_chart
 from pysim.present.diagnosis.figures.error import error_chart
 from pysim.present.diagnosis.words import step_name
 from pysim.present.parameters import parameters_chart
+from pysim.present.plain_text import with_interval
 from pysim.types import read_step
 
 
@@ -156,10 +157,12 @@ def _parameters(answer: Answer, added: tuple[str, ...]) -> None:
 def _three(e: Mapping[str, Any] | None) -> list[Any]:
     if e is None:
         return ["", "", ""]
-    value: Any = _number(e["value"])
+    value: Any
+    three = (e["value"], e["low"], e["high"])
+    value, *ends = map(_number, three) if None in three else with_interval(e["value"], three[1:], 4)
     if e["value"] in (e["lower"], e["upper"]):
         value = {"text": f"{value} AT BOUND", "value": e["value"], "mark": "high"}
-    return [value, *((_number(e["low"]), _number(e["high"])) if e["determined"] else ("–", "–"))]
+    return [value, *(ends if e["determined"] else ("–", "–"))]
 
 
 def _point(e: Mapping[str, Any] | None) -> tuple[float, float, float] | None:

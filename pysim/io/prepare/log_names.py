@@ -27,7 +27,7 @@ def logs_called(dataset: Dataset, name: str) -> tuple[MeasuredRecord, ...]:
     found = exact or [record for record in dataset.records if _stem(record.source) == name]
     if len(found) > 1 and len({record.source for record in found}) > 1:
         raise BadInput(f"two logs are called {name!r}; name one of {', '.join(r.source for r in found)}")
-    parts = [r for r in dataset.records if _stem(r.source).startswith(f"{_stem(name)}{PART}")]
+    parts = [r for r in dataset.records if _stem(r.source).startswith(f"{_stem(str(name))}{PART}")]
     if not (found or parts):
         names = ", ".join(short_name(dataset, record) for record in dataset.records)
         raise BadInput(f"there is no log {name!r}; name one of {names}")

@@ -14,7 +14,7 @@ from pysim.present import criteria
 from pysim.present.notes import NOT_FITTED, words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
-from pysim.present.plain_text import wrapped
+from pysim.present.plain_text import with_interval, wrapped
 from pysim.present.render import Drawing
 from pysim.types import Deviation
 from pysim.types.json_number import json_data
@@ -47,7 +47,8 @@ def _text(one: FittedResponse) -> Iterable[str]:
     yield f"  {_deviations(one.deviations)}"
     yield from (f"  {NOT_FITTED}: {_deviations(deviations)}" for deviations in one.held_out)
     for e in numbers(one):
-        yield f"  {e.name:<10}{e.value:>14.6g}  [{e.interval[0]:.6g}, {e.interval[1]:.6g}] {e.unit}".rstrip()
+        value, low, high = with_interval(e.value, e.interval, 6)
+        yield f"  {e.name:<10}{value:>14}  [{low}, {high}] {e.unit}".rstrip()
     for name, roots in (("pole", fit.poles), ("zero", fit.zeros)):
         yield from (f"  {name:<10}{root_text(root, fit.quantile(0.95))}" for root in upper(roots))
     if one.suggestion:
@@ -198,7 +199,7 @@ def _overview(fitted: Sequence[FittedResponse]) -> str:
 
 
 def _numbers_table(one: FittedResponse) -> str:
-    rows = [[e.name, *(f"{value:.6g}" for value in (e.value, *e.interval)), e.unit] for e in numbers(one)]
+    rows = [[e.name, *with_interval(e.value, e.interval, 6), e.unit] for e in numbers(one)]
     caption = "Coefficients of powers of s (rad/s), denominator monic; gain at rest; 95 percent intervals"
     return table(caption, ["", "value", "low", "high", "unit"], rows)
 

@@ -28,7 +28,7 @@ from pysim.present.diagnosis.words import (
     verdict_sentence,
 )
 from pysim.present.notes import listed, sentences, words
-from pysim.present.plain_text import wrapped
+from pysim.present.plain_text import with_interval, wrapped
 from pysim.types import Dataset, Diagnosis, LearnedLaw, answer_data
 from pysim.types.answer import PRIOR
 
@@ -128,8 +128,9 @@ def _effects(diagnosis: Diagnosis) -> Iterator[str]:
         yield "Effects, what costs most to leave out first"
     for one in diagnosis.effects:
         yield f"  {found_name(one)}{'' if one.share is None else f'  {share_text(one.share)} of the misfit'}"
-        for name, value, (low, high), unit in sizes(one):
-            yield f"    {name} = {value:.4g}{'' if unit == '1' else f' {unit}'}, 95 % from {low:.4g} to {high:.4g}"
+        for name, size, ends, unit in sizes(one):
+            value, low, high = with_interval(size, ends, 4)
+            yield f"    {name} = {value}{'' if unit == '1' else f' {unit}'}, 95 % from {low} to {high}"
 
 
 def _history(diagnosis: Diagnosis) -> Iterator[str]:

@@ -27,6 +27,7 @@ from pysim.present.diagnosis.words import (
 from pysim.present.notes import USES, direction_words, estimate_words, listed, sentences
 from pysim.present.page import cell, commands, heading, items, paragraph, pictures, statement, table
 from pysim.present.page import page as whole_page
+from pysim.present.plain_text import with_interval
 from pysim.present.render import Drawing
 from pysim.types import Diagnosis, ErrorStep, Estimate, FoundEffect
 from pysim.types.answer import REFIT
@@ -87,8 +88,8 @@ def _effects(effects: Sequence[FoundEffect]) -> list[str]:
             place = f"Class {effect.class_name}, in the slot {effect.slot}."
             parts.append(paragraph(". ".join(filter(None, [effect.description, place]))))
         parts += [commands(effect.law)] if effect.law else []
-        for name, value, (low, high), unit in sizes(one):
-            texts = [f"{v:.5g}" for v in (value, low, high)]
+        for name, value, ends, unit in sizes(one):
+            texts = with_interval(value, ends)
             rows.append([found_name(one), name, *texts, unit, "" if one.share is None else share_text(one.share)])
     head = ["effect", "parameter", "value", "95 % from", "to", "unit", "of the misfit"]
     return [*parts, table("Sizes that the measurements give", head, rows, words=[0])]
@@ -163,9 +164,9 @@ def _parameters(diagnosis: Diagnosis) -> list[str]:
 
 
 def _parameter(before: Estimate, after: Estimate | None, move: float | None, held: bool) -> list[str]:
-    cells = [before.name, before.unit, *(f"{v:.5g}" for v in (before.start, before.value, *before.interval))]
+    cells = [before.name, before.unit, f"{before.start:.5g}", *with_interval(before.value, before.interval)]
     if after is not None:
-        cells += [f"{v:.5g}" for v in (after.value, *after.interval)]
+        cells += with_interval(after.value, after.interval)
         cells.append(cell("" if move is None else f"{move:.1f}", "beyond" if move is not None and move > 1 else ""))
     return [*cells, estimate_words(after or before, held=held)]
 

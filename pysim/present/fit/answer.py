@@ -12,7 +12,7 @@ from pysim.io import shown_value, toml_key, toml_table
 from pysim.present.notes import USES, direction_words, estimate_words, sentences, words
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
-from pysim.present.plain_text import wrapped
+from pysim.present.plain_text import with_interval, wrapped
 from pysim.present.render import Drawing
 from pysim.types import Dataset, Estimate, Fit, FitOutcome, RecordFit, ResponseFit
 from pysim.types.json_number import json_data
@@ -43,13 +43,16 @@ def text(result: Fitted) -> str:
     lines.append(f"residual over noise {fit.misfit:.4g} (1 is perfect); {gain_text(fit)}")
     lines.append(f"  {'parameter':<14}{'estimate':>12}  {'95 % from':>11} {'to':>11}  unit")
     lines += [_row(estimate) for estimate in (*fit.estimates, *fit.initial)]
-    lines += [f"  {c.name} = {c.value:.5g}, 95 % {c.interval[0]:.5g} to {c.interval[1]:.5g}" for c in fit.combinations]
+    for c in fit.combinations:
+        value, low, high = with_interval(c.value, c.interval)
+        lines.append(f"  {c.name} = {value}, 95 % {low} to {high}")
     lines += [f"  {text}" for text in _left_over(fit)]
     warnings = fit_warnings(fit)
     others = [note for note in fit.notes if note not in warnings]
     for kind, texts in (("Warning", sentences(warnings)), ("Note", sentences(others))):
         lines += [line for text in texts for line in wrapped(f"{kind}: {text}")]
-    lines += [f"Profile of {p.name}: 95 % from {p.interval[0]:.5g} to {p.interval[1]:.5g}" for p in result.profiles]
+    for p in result.profiles:
+        lines.append("Profile of {}: 95 % from {} to {}".format(p.name, *with_interval(0.0, p.interval)[1:]))
     return "\n".join(lines)
 
 
@@ -64,8 +67,8 @@ def gain_text(fit: Fit) -> str:
 
 
 def _row(estimate: Estimate) -> str:
-    low, high = estimate.interval
-    row = f"  {estimate.name:<14}{estimate.value:>12.5g}  {low:>11.5g} {high:>11.5g}  {estimate.unit:<7}"
+    value, low, high = with_interval(estimate.value, estimate.interval)
+    row = f"  {estimate.name:<14}{value:>12}  {low:>11} {high:>11}  {estimate.unit:<7}"
     return f"{row}{estimate_words(estimate)}".rstrip()
 
 
@@ -180,14 +183,14 @@ _METHOD = (
 def _estimates_table(estimates: Sequence[Estimate], caption: str) -> str:
     rows = []
     for e in estimates:
-        numbers = (e.value, *e.interval, e.start, e.lower, e.upper)
-        rows.append([e.name, e.unit, *(f"{v:.5g}" for v in numbers), estimate_words(e)])
+        others = [f"{v:.5g}" for v in (e.start, e.lower, e.upper)]
+        rows.append([e.name, e.unit, *with_interval(e.value, e.interval), *others, estimate_words(e)])
     head = ["parameter", "unit", "estimate", "95 % from", "to", "start", "lower", "upper", ""]
     return table(caption, head, rows, words=[8])
 
 
 def _combinations_table(fit: Fit) -> str:
-    rows = [[c.name, *(f"{v:.5g}" for v in (c.value, *c.interval))] for c in fit.combinations]
+    rows = [[c.name, *with_interval(c.value, c.interval)] for c in fit.combinations]
     caption = "Combinations that are determined (product of the parameters' units)"
     return table(caption, ["", "value", "95 % from", "to"], rows)
 

@@ -2,8 +2,9 @@
 
 import json
 import shlex
+import sys
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +17,7 @@ from pysim.cli.options import JSON, OUTPUT
 from pysim.present import Drawing, Picture
 from pysim.present.report import MARKER, VIEWS
 from pysim.present.style import new_figure
+from pysim.types import BadInput
 
 SEEN: list[Given] = []
 
@@ -72,8 +74,6 @@ def files(result: Level) -> dict[str, str]:
 
 @pytest.fixture(autouse=True)
 def known(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
-    import sys
-
     here = sys.modules[__name__]
     monkeypatch.setattr(here, "text", lambda result: f"level {result.level}")
     monkeypatch.setitem(VIEWS, "Level", __name__)
@@ -104,6 +104,18 @@ def test_all_that_was_asked_for_is_written_and_replaced_whole(tmp_path: Path) ->
     expected = {"n.json", "level.txt", "square.png", "square.svg", "report.html", MARKER}
     assert {path.name for path in Path("out").iterdir()} == expected
     assert Path("out/report.html").read_text().startswith("1 ")
+
+
+def test_a_refusal_leaves_no_empty_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(given: Given) -> Level:
+        assert given.output.is_dir()  # it was seen before that it can be written to
+        raise BadInput("no such model")
+
+    monkeypatch.setattr(sys.modules["pysim.cli.main"], "registry", lambda: {"try": replace(COMMAND, run=refuse)})
+    (tmp_path / "there").mkdir()
+    for out in ("new/out", "there", "there/out"):
+        assert main(["try", "a", "--output", out, "--json", "numbers/of/a.json", "--more", f"{out}/more.npz"]) == 2
+    assert [*tmp_path.rglob("*")] == [tmp_path / "there"]
 
 
 @pytest.mark.parametrize(

@@ -125,6 +125,8 @@ class Slotted:
         ({"pi": PI(1.0, 1.0, DT)}, {"inputs": {}}, "reference"),
         ({"pi": PI(1.0, 1.0, 0.3 * DT)}, {}, "whole number"),
         ({"pi": PI(1.0, 1.0, DT)}, {"stop": 0.0}, "stop"),
+        ({"pi": PI(1.0, 1.0, DT)}, {"stop": "1"}, "stop: '1' is no number"),
+        ({"pi": PI(1.0, 1.0, DT)}, {"wires": [("mass.x", "pi.measured")]}, "wires: a list has no names"),
     ],
 )
 def test_mistakes_are_refused_with_a_cure(mass: Model, members: dict, more: dict, said: str) -> None:  # type: ignore[type-arg]

@@ -55,6 +55,23 @@ def test_every_step_gives_a_new_one_and_is_listed() -> None:
     np.testing.assert_array_equal(log_of(data, "run1")["x"], -log_of(raw, "run1")["x"][50:])
 
 
+def test_names_may_stand_in_a_list_and_other_kinds_are_refused() -> None:
+    raw = logs()
+    assert raw.hold_out(["run1", "run2"]).history == raw.hold_out("run1", "run2").history
+    assert raw.flip(["x"]).history == raw.flip("x").history
+    for ask, said in (
+        (lambda: raw.trim("a"), "start: 'a' is no number"),
+        (lambda: raw.resample(None), "hz: None is no number"),
+        (lambda: raw.lowpass("x", "F"), "hz: 'x' is no number"),
+        (lambda: raw.rename(["x"]), "names: a list has no names"),
+        (lambda: raw[0], "there is no log 0; name one of run1, run2"),
+        (lambda: raw.save(3), "folder: 3 is no path"),
+        (lambda: load({"t": [0, 1], "x": [0, 1]}, inputs="F", outputs="x", noise=0.1), "noise: 0.1 has no names"),
+    ):
+        with pytest.raises(BadInput, match=said):
+            ask()  # type: ignore[no-untyped-call]
+
+
 def test_a_saved_folder_reads_as_the_same_data(tmp_path: Path) -> None:
     data = logs().fill_gaps(0.03).trim(stop=4).scale("x", 2.0, 1.0).rename(x="y").delay("y", 0.013)
     data = data.detrend("y").resample(50).lowpass(20).drop_outliers(9, "y").split(0.7)

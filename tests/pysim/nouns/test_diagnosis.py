@@ -104,6 +104,9 @@ def test_a_learned_law_becomes_an_effect_of_the_users(missing: Law, mass: Model,
     assert missing.to_effect("my.rubbing").file == own.file
     (kept,) = read_catalogue(own.save(tmp_path / "own"))
     assert (kept.name, kept.slot, kept.class_name) == ("my.rubbing", "force", "MyRubbing")
+    for place in ("MyRubbing.mo", "own/MyRubbing.mo"):  # a file is meant; the second is one
+        with pytest.raises(BadInput, match="name the folder"):
+            own.save(tmp_path / place)
     with_law = mass.with_effects(own)
     assert with_law.free_names == mass.free_names  # the curve has its values already
     errors = pysim.compare(mass.set(**missing.found.parameters), with_law.set(**missing.found.parameters), data)

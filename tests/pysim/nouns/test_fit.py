@@ -134,6 +134,10 @@ def test_what_stands_still_or_is_not_free_is_refused(mass: Model, data: Dataset)
         pysim.fit(mass.fix("m", "d", "k"), data)
     with pytest.raises(BadInput, match="initial"):
         pysim.fit(mass, data, initial="resting")
+    with pytest.raises(BadInput, match=r"fit: a str is no model; give what pysim.model\(...\) returns"):
+        pysim.fit("Toy.Mass", data)  # type: ignore[arg-type]
+    with pytest.raises(BadInput, match=r"fit: .* is a file; name a folder"):
+        pysim.fit(mass, data, folder=__file__)
 
 
 def test_it_draws_and_is_reported(fitted: Fit, tmp_path: Path) -> None:
@@ -145,6 +149,16 @@ def test_it_draws_and_is_reported(fitted: Fit, tmp_path: Path) -> None:
     files = fitted.report(tmp_path / "fit")
     assert "When not to trust it" in files["report"].read_text(encoding="utf-8")
     assert "poor" in fitted.summary()
+
+
+def test_a_report_replaces_no_file_of_the_user(fitted: Fit, tmp_path: Path) -> None:
+    mine = tmp_path / "other"
+    mine.mkdir()
+    for name in ("parameters.toml", "notes.txt"):
+        (mine / name).write_text("mine")
+    with pytest.raises(BadInput, match=r"parameters.toml is there already"):
+        fitted.report(mine)
+    assert {path.name: path.read_text() for path in mine.iterdir()} == {"parameters.toml": "mine", "notes.txt": "mine"}
 
 
 def test_a_fit_that_was_saved_is_the_same_again(mass: Model, tmp_path: Path) -> None:
@@ -164,8 +178,13 @@ def test_a_fit_that_was_saved_is_the_same_again(mass: Model, tmp_path: Path) -> 
             assert again.found[one.name].std == pytest.approx(one.std, rel=0.01)
         assert again.signals["x noise"] == pytest.approx(found.signals["x noise"], rel=1e-3)
         assert again.warnings == found.warnings
-    with pytest.raises(BadInput, match="holds files already"):
-        found.save(tmp_path / "added")
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "model.fmu").write_text("mine")
+    for there in ("added", "mine"):
+        before = {path: path.read_bytes() for path in (tmp_path / there).rglob("*") if path.is_file()}
+        with pytest.raises(BadInput, match="holds files already"):
+            found.save(tmp_path / there)
+        assert before == {path: path.read_bytes() for path in (tmp_path / there).rglob("*") if path.is_file()}
     with pytest.raises(BadInput, match=r"fit\.save"):
         Fit.load(tmp_path)
 

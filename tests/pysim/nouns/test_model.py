@@ -10,6 +10,7 @@ import pysim
 from pysim.io import read_model
 from pysim.nouns.model import Model
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record, SimulationError
+from tests.toy import library, measured
 
 
 def test_its_tables_say_what_it_holds(mass: Model) -> None:
@@ -37,7 +38,19 @@ def test_what_is_said_of_it_makes_another_model(mass: Model) -> None:
     ("ask", "said"),
     [
         (lambda m: m.set(mm=1.0), "no variable 'mm'; near it: m"),
-        (lambda m: m.free("F"), "name a parameter"),
+        (lambda m: m.free("F"), "F is no parameter .* it has m, d, k"),
+        (lambda m: m.free(m=("a", "b")), "m: 'a' is no number"),
+        (lambda m: m.free(prior={"m": 3}), r"write m=\(mean, standard deviation\)"),
+        (lambda m: m.set(m=0.49), "m = 0.49 is outside its bounds, 0.5 to 5.0 kg"),
+        (lambda m: m.fix(m=5.1), "m = 5.1 is outside its bounds"),
+        (lambda m: m.free(m=(1, 2)).set(m=0.7), "outside its bounds, 1.0 to 2.0 kg"),
+        (lambda m: m.with_effects(3), "effects: a int is none"),
+        (lambda m: m.simulate("run1"), r"write simulate\(2.0\), or simulate\(data"),
+        (lambda m: m.simulate(measured(1)), "neither a time in s nor one log"),
+        (lambda m: m.simulate(1, dt="fast"), "dt: 'fast' is no number"),
+        (lambda m: m.simulate(measured(1).records[0], initial={"x": "much"}), "initial: 'much' is no number"),
+        (lambda m: m.export(3), "folder: 3 is no path"),
+        (lambda m: pysim.model(m), "name: a Model is no path"),
         (lambda m: m.free(m=(2, 1)), r"m=\(lowest, highest\)"),
         (lambda m: m.with_effects("toy.frction"), "did you mean toy.friction"),
         (lambda m: m.with_effects("toy.bias", "toy.bias"), "once"),
@@ -71,6 +84,26 @@ def test_a_mistake_names_the_argument_and_the_cure(mass, data, ask, argument, cu
         ask(mass, data)
     assert refused.value.argument == argument
     assert refused.value.cure.startswith(cure)
+
+
+def test_one_name_or_a_list_of_names_will_do(mass: Model, data: Dataset) -> None:
+    assert mass.free(["m", "k"]).free_names == ("m", "k") == mass.free("m").free(("k",)).free_names
+    assert mass.fix(["m", "k"]).free_names == ("d",)
+    assert mass.with_effects(["toy.friction"]).effects_in == mass.with_effects("toy.friction").effects_in
+    assert mass.simulate(1, record="x").record.names == ("x",)
+    session = pysim.open_session(mass.compiled, data, library=library(), free="m", effects="toy.friction")
+    assert [one.name for one in (*session.parameters, *session.catalogue)] == ["m", "toy.friction"]
+
+
+def test_bounds_that_are_given_are_those_that_a_value_stays_in(mass: Model) -> None:
+    wider = mass.free(m=(0.05, 9)).set(m=0.1)
+    assert wider.free_names == ("m",)
+    assert wider.fix("m").values == {"m": 0.1}
+
+
+def test_the_start_of_a_state_may_be_free_and_is_shown(mass: Model) -> None:
+    assert mass.free("x").table.row("x")["value"] == 0.0
+    assert "x" in repr(mass.free("x"))
 
 
 def swing(t: np.ndarray, force: float = 3.0) -> np.ndarray:
@@ -181,5 +214,10 @@ def test_a_run_prints_draws_and_is_saved(mass: Model, tmp_path: Path) -> None:
     assert len(repr(run)) < 2000 > len(run._repr_html_())
     assert run.table.row("x")["at the end"] == run["x"][-1]
     assert len(run.plot().axes) == 2  # m and m/s
-    assert run.save(tmp_path / "run.csv").read_text().count("\n") > 500
+    for _ in range(2):  # a run that was saved there is replaced
+        assert run.save(tmp_path / "run.csv").read_text().count("\n") > 500
+    (tmp_path / "bench.csv").write_text("t,x\n0,1\n")
+    with pytest.raises(BadInput, match=r"bench.csv is there already and holds no run; name another file"):
+        run.save(tmp_path / "bench.csv")
+    assert (tmp_path / "bench.csv").read_text() == "t,x\n0,1\n"
     assert math.isclose(run.time[-1], 1.0)

@@ -1,5 +1,6 @@
 """Tables print within what a noun may take, and pandas does the rest."""
 
+import math
 import pickle
 from html.parser import HTMLParser
 
@@ -21,6 +22,15 @@ def test_columns_and_rows_are_found_by_name() -> None:
 
 def test_numbers_stand_to_the_right_and_nothing_is_written_for_none() -> None:
     assert repr(SMALL).splitlines() == ["name  value  is on", "m       1.5  yes", "k            no"]
+
+
+def test_the_ends_of_a_narrow_interval_are_told_apart() -> None:
+    rows = [(4e-12, 4e-12 - 3e-18, 4e-12 + 3e-18), (1.0, 0.9, 1.1), (2.0, math.nan, 2.0), (2.0, 2.0, 2.0)]
+    table = Table.of(("value", "95 % from", "to"), rows)
+    assert [line.split() for line in repr(table).splitlines()[1:]] == [
+        ["4e-12", "3.999997e-12", "4.000003e-12"], ["1", "0.9", "1.1"], ["2", "2"], ["2", "2", "2"]
+    ]  # fmt: skip
+    assert "<td>3.999997e-12</td>" in table._repr_html_()
 
 
 def test_a_large_table_says_how_much_it_leaves_out() -> None:

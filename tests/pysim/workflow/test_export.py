@@ -1,6 +1,7 @@
 """A model to take away: what is written runs by itself and gives what the model gave."""
 
 import math
+import shutil
 import tomllib
 from pathlib import Path
 
@@ -9,9 +10,11 @@ import pytest
 
 from pysim.effects import STANDARD_LIBRARY
 from pysim.io import read_model
+from pysim.present.report import MARKER
 from pysim.simulate import Rodas, simulate
 from pysim.types import BadInput, Experiment, Model, Signal
 from pysim.workflow import Variants, class_in, export_model, model_of, models_in, recorded_of
+from pysim.workflow.extended import copied
 from tests.known_answers.plants import PLANTS
 from tests.toy import CATALOGUE, library
 
@@ -69,3 +72,39 @@ def test_the_models_of_a_library_are_neither_packages_nor_partial_nor_effects() 
 def test_a_run_records_what_is_asked_for_else_the_outputs() -> None:
     assert recorded_of(MASS) == ("x", "v")
     assert recorded_of(MASS, ["force.f"]) == ("force.f",)
+
+
+def test_files_of_the_user_stay_as_they_are_and_ours_are_replaced(tmp_path: Path) -> None:
+    mine = tmp_path / "MassFitted.fmu"
+    mine.write_text("mine")
+    with pytest.raises(BadInput, match=r"MassFitted.fmu is there already .* name another folder"):
+        export_model(MASS, VARIANTS, [], {"m": 1.7}, tmp_path)
+    assert {path: path.read_text() for path in tmp_path.iterdir()} == {mine: "mine"}
+    mine.unlink()
+    shutil.copyfile(library(), tmp_path / library().name)  # the same: neither refused nor ours from then on
+    for m in (1.7, 1.8):
+        files = export_model(MASS, VARIANTS, [], {"m": m}, tmp_path)
+        assert tomllib.loads(files["parameters"].read_text()) == {"m": m}
+    assert {*(tmp_path / MARKER).read_text().splitlines()} == {"MassFitted.fmu", "MassFitted.mo", "parameters.toml"}
+
+
+@pytest.mark.parametrize("name", ["Zyl.mo", "deep/Zyl.mo", "file/deep"])
+def test_a_place_that_is_no_folder_is_refused_and_nothing_stays(tmp_path: Path, name: str) -> None:
+    (tmp_path / "file").write_text("mine")
+    with pytest.raises(BadInput, match=r"name .* folder"):
+        export_model(MASS, VARIANTS, [], {}, tmp_path / name)
+    assert [*tmp_path.rglob("*")] == [tmp_path / "file"]
+
+
+def test_libraries_of_equal_name_lie_side_by_side_and_compile(tmp_path: Path) -> None:
+    texts = {"a": "model Plant extends Base; end Plant;", "b": "partial model Base output Real x = 3; end Base;"}
+    for place, text in texts.items():
+        (tmp_path / place).mkdir()
+        (tmp_path / place / "Lib.mo").write_text(text)
+    libraries = tuple(tmp_path / place / "Lib.mo" for place in texts)
+    files = export_model(model_of("Plant", libraries), Variants("Plant", libraries), [], {}, tmp_path / "out")
+    kept = {files["Lib"].read_text(), files["Lib-2"].read_text()}
+    assert kept == {*texts.values()}
+    again = model_of("PlantFitted", [path for path in files.values() if path.suffix == ".mo"])
+    assert simulate(again, Experiment(TIMES, ("x",))).values.tolist() == [[3.0]] * TIMES.size
+    assert copied([libraries[0]], tmp_path / "out", "LIB.mo")[libraries[0]].name == "Lib-2.mo"
