@@ -45,7 +45,7 @@ class Draft:
         columns: log, relative to the folder -> its columns as dataset.toml names them.
         called: log -> what it calls its time, where that is another name and counts.
         sines: log -> what it is as a stepped sine.
-        clocks: units of time that headings tell -> the log that does so first.
+        clocks: units of time -> the first log that is in it.
         remarks: what the user should know.
     """
 
@@ -100,17 +100,16 @@ def draft_dataset(folder: Path, inputs: Mapping[str, str], responses: Mapping[st
 
 
 def _take_clock(found: Draft, path: Path, clock: Column) -> None:
-    """The unit of a log's times, where its heading tells one."""
-    if not clock.unit:
-        return
-    if clock.unit not in SECONDS:
+    """The unit of a log's times; s where its heading tells none."""
+    if clock.unit and clock.unit not in SECONDS:
         told = f"{_source(found, path)} heads it {clock.heading!r}"
         found.remarks.append(f"time: taken for s, though {told}; say time_unit")
         return
-    found.clocks.setdefault(clock.unit, _source(found, path))
+    untold = "" if clock.unit else ", whose heading tells no unit"
+    found.clocks.setdefault(clock.unit or "s", f"{_source(found, path)}{untold}")
     if len(found.clocks) > 1:
         told = ", ".join(f"{one} in {where}" for one, where in found.clocks.items())
-        raise BadInput(f"{found.folder}: times are in {told}; put logs of one unit of time into a folder of their own")
+        raise BadInput(f"{found.folder}: times are in {told}; correct a heading, or give each unit a folder of its own")
 
 
 def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -> None:

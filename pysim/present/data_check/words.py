@@ -29,7 +29,10 @@ _WORDS: Mapping[FindingCode, str] = {
     FindingCode.OUTLIERS: "{samples} of {signal} far off their neighbours, the first at {start:.6g} s",
     FindingCode.UNEVEN: "uneven sampling: the intervals vary by {jitter:.0f} percent",
     FindingCode.TOO_SHORT: "{rows} samples are too few; {least} are the least",
-    FindingCode.SLOW_CLOCK: ('{rate:.3g} samples per second: if time is in ms, write time_unit = "ms" below [dataset]'),
+    FindingCode.SLOW_CLOCK: (
+        '{rate:.3g} samples per second: if time is in ms, load it with units={{"time": "ms"}}, '
+        'or write time_unit = "ms" below [dataset]'
+    ),
     FindingCode.STILL: "{signal} stands still at {value:g} {unit}",
     FindingCode.FOLDED: (
         "{share:.0f} percent of the variance of {signal} lie above 80 percent of half the sampling rate: "

@@ -155,3 +155,15 @@ def test_what_is_measured_and_what_is_driven_is_held_against_the_model() -> None
     right = load({"t": TIME, "F [N]": FORCE, "x [m]": PLACE}, inputs="F", outputs="x", time="t")
     names = {FindingCode.NOT_IN_MODEL, FindingCode.NOT_DRIVEN}
     assert not names & {one.code for one in right.check(mass).findings}
+
+
+def test_a_slow_log_is_loaded_in_ms_as_its_finding_says() -> None:
+    columns = {"time": 1e3 * TIME, "F [N]": FORCE, "x [m]": PLACE}
+    slow = load(columns, inputs="F", outputs="x")
+    (found,) = slow.check().findings
+    assert found.code is FindingCode.SLOW_CLOCK
+    said = " ".join(repr(slow.check()).split())
+    units = eval(said[said.index("units={") + 6 : said.index("}") + 1])
+    cured = load(columns, inputs="F", outputs="x", units=units)
+    assert cured.check().ok
+    assert cured["log"].data.time[-1] == pytest.approx(TIME[-1])
