@@ -10,13 +10,11 @@ from collections.abc import Collection, Mapping, Sequence
 from pathlib import Path, PurePosixPath
 from typing import Any
 
-from pysim.identify.logged.command import jumps
 from pysim.io import log_source, read_described, read_toml, toml_key, toml_table, write_file
 from pysim.io.load.headings import name_and_unit
 from pysim.io.prepare import HoldOut, prepared
-from pysim.io.prepare.step import stands
-from pysim.types import UNITS, BadInput, Dataset, MeasuredSignal, Record, conversion
-from pysim.types.record_kind import KINDS, RESPONSE_TABLE, Command
+from pysim.types import UNITS, BadInput, Dataset, conversion
+from pysim.types.record_kind import RESPONSE_TABLE
 
 
 def read_description(path: Path) -> dict[str, Any]:
@@ -95,18 +93,6 @@ def put_role(content: dict[str, Any], name: str, role: str) -> None:
         content["signals"][name].pop("hold", None)
     if role == ROLES[-1]:
         leave_column_out(content, name)
-
-
-def held_logs(dataset: Dataset, signal: MeasuredSignal) -> list[str]:
-    """Logs in which an input counts as held, if only where it jumps, though nobody said so."""
-    if signal.role != "input" or signal.hold is not None:
-        return []
-    found, name = [], signal.name
-    for log in dataset.logs():
-        if isinstance(log.data, Record) and name in log.data.names:
-            jumping = KINDS[log.kind].command is Command.SPLINE and jumps(log.data[name])
-            found += [log.source] if jumping or stands(dataset, log, name) else []
-    return found
 
 
 def put_unit(name: str, section: dict[str, Any], unit: str, logged: str) -> None:

@@ -62,8 +62,7 @@ class Tasks:
 
     def checked(self) -> DataCheck:
         """What is to be looked at in the logs as they are prepared, beside the model's answers to their inputs."""
-        settings, found = self._project.settings(), read_described(Path("data"), partly=True)
-        data = Data(found.raw, found.raw, (), found.units, found.units, {}).after(*found.steps)
+        settings, data = self._project.settings(), Data.of(read_described(Path("data"), partly=True))
         return data.check(opened_model(settings.model, library=settings.libraries)).result
 
     def describe(self, columns: Sequence[Mapping[str, Any]], kind: str) -> None:

@@ -38,7 +38,10 @@ def read_dataset(folder: Path | str) -> Dataset:
     Raises:
         BadInput: what is wrong, with file, line and remedy.
     """
-    return _ready(read_described(folder))
+    described = read_described(folder)
+    dataset = prepared(described.raw, described.steps)
+    refuse_missing_samples(dataset)
+    return dataset
 
 
 @dataclass(frozen=True)
@@ -46,7 +49,7 @@ class Described:
     """A data set as its folder has it.
 
     Args:
-        raw: its logs as they were taken; an empty cell is not-a-number where steps of preparation are to follow.
+        raw: its logs as they were taken; an empty cell is not-a-number.
         steps: of the preparation that dataset.toml asks for.
         units: signal -> unit in the files.
         refused: per record that cannot be read its file and what is wrong.
@@ -62,23 +65,11 @@ def read_described(folder: Path | str, *, partly: bool = False) -> Described:
     """Read a data set as `read_dataset` does, with the steps of its preparation still to be done.
 
     Args:
-        partly: what can be read of it, with empty cells as not-a-number though no step is to follow.
+        partly: leave out records that cannot be read, and say which.
     Raises:
-        BadInput: as of `read_dataset`.
+        BadInput: as of `read_dataset`, but for empty cells.
     """
-    return _read(Path(folder), keep_going=partly, missing=partly)
-
-
-def _ready(described: Described) -> Dataset:
-    """With all steps done."""
-    dataset = prepared(described.raw, described.steps)
-    if described.steps:
-        refuse_missing_samples(dataset)
-    return dataset
-
-
-def _read(folder: Path, *, keep_going: bool, missing: bool = False) -> Described:
-    toml = read_toml(_description(folder), "data set")
+    toml = read_toml(_description(Path(folder)), "data set")
     head = toml.table("dataset")
     toml.whole.refuse_unknown(_KEYS)
     head.refuse_unknown(_DATASET_KEYS)
@@ -99,11 +90,11 @@ def _read(folder: Path, *, keep_going: bool, missing: bool = False) -> Described
             if kind == RESPONSE_TABLE.name:
                 records.append(read_measured_table(toml.path.parent, section, written))
             else:
-                log = read_log(toml.path.parent, section, kind, written, scales, second, missing=missing or bool(steps))
+                log = read_log(toml.path.parent, section, kind, written, scales, second)
                 numbers = _counted(section, numbers, log)
                 records.append(log)
         except BadInput as error:
-            if not keep_going:
+            if not partly:
                 raise
             refused.append((section.source(), str(error)))
     signals = tuple(signal_in_si(signal) for signal in written.values())

@@ -45,7 +45,7 @@ class Draft:
         columns: log, relative to the folder -> its columns as dataset.toml names them.
         called: log -> what it calls its time, where that is another name and counts.
         sines: log -> what it is as a stepped sine.
-        clocks: units of time that headings tell -> the log that does so first.
+        clocks: units of time -> the first log that is in it.
         remarks: what the user should know.
     """
 
@@ -100,17 +100,16 @@ def draft_dataset(folder: Path, inputs: Mapping[str, str], responses: Mapping[st
 
 
 def _take_clock(found: Draft, path: Path, clock: Column) -> None:
-    """The unit of a log's times, where its heading tells one."""
-    if not clock.unit:
-        return
-    if clock.unit not in SECONDS:
-        source = _source(found, path)
+    """The unit of a log's times; s where its heading tells none."""
+    source, unit = _source(found, path), SYNONYMS.get(clock.unit, clock.unit) or "s"
+    if unit not in SECONDS:
         found.remarks.append(f"time: taken for s, though {source} heads it {clock.heading!r}; say time_unit")
         return
-    found.clocks.setdefault(SYNONYMS.get(clock.unit, clock.unit), _source(found, path))
+    found.clocks.setdefault(unit, source if clock.unit else f"{source}, whose heading tells no unit")
     if len(found.clocks) > 1:
         units = ", ".join(f"{one} in {where}" for one, where in found.clocks.items())
-        raise BadInput(f"{found.folder}: times are in {units}; put logs of one unit of time into a folder of their own")
+        cure = "correct a heading, or give each unit a folder of its own"
+        raise BadInput(f"{found.folder}: times are in {units}; {cure}")
 
 
 def _take(found: Draft, path: Path, columns: Sequence[Column], *, named: bool) -> None:

@@ -25,8 +25,6 @@ def read_log(
     signals: Mapping[str, MeasuredSignal],
     scales: Mapping[str, Scale],
     second: float = 1.0,
-    *,
-    missing: bool = False,
 ) -> MeasuredRecord:
     """One log.
 
@@ -37,7 +35,8 @@ def read_log(
         signals: by their names, in the units of the files.
         scales: of their columns.
         second: how many s the unit of its times is.
-        missing: whether cells of signals may be empty.
+    Returns:
+        with not-a-number for empty cells.
     Raises:
         BadInput: what is wrong, with file, line and remedy.
     """
@@ -48,7 +47,7 @@ def read_log(
     use = section.text("use", "fit", among=USES)
     test = _test(section, kind, Scale.of(signals[command].unit if command else "1"))
     clock = _clock(section, source, names)
-    columns = read_columns(folder / source, all_names, section.place, clock=clock, missing=missing).in_seconds(
+    columns = read_columns(folder / source, all_names, section.place, clock=clock, missing=True).in_seconds(
         TIME, second
     )
     refuse_standing_time(columns)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from pysim.io.counted import counted
-from pysim.io.dataset import read_described
+from pysim.io.dataset import Described, read_described
 from pysim.io.load import is_frame, load_logs
 from pysim.io.load.load import Names
 from pysim.io.prepare import (
@@ -35,7 +35,7 @@ from pysim.io.prepare import (
     short_name,
 )
 from pysim.io.write_dataset import write_dataset
-from pysim.nouns.data_check import Check
+from pysim.nouns.data_check import Check, other_quantities
 from pysim.nouns.model import Model
 from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
@@ -61,6 +61,11 @@ class Data(Shown):
     logged: Mapping[str, str]
     units: Mapping[str, str]
     remarks: Mapping[str, tuple[str, ...]]
+
+    @classmethod
+    def of(cls, described: Described) -> Data:
+        """A data set as its folder has it, after the steps of its preparation."""
+        return cls(described.raw, described.raw, (), described.units, described.units, {}).after(*described.steps)
 
     @property
     def dataset(self) -> Dataset:
@@ -186,8 +191,12 @@ class Data(Shown):
         """
         from pysim.identify.data_check import check_dataset
 
-        own = (model.compiled, tuple(model.values)) if isinstance(model, Model) else (None, ())
-        return Check(check_dataset(self.now, self._answers(model), *own))
+        if not isinstance(model, Model):
+            return Check(check_dataset(self.now, self._answers(model)))
+        wrong = other_quantities(self.now, model.compiled)
+        answers = {} if wrong else self._answers(model)
+        found = check_dataset(self.now, answers, model.compiled, tuple(model.values))
+        return Check(replace(found, beside_model=(*wrong, *found.beside_model)))
 
     def _answers(self, model: Any) -> dict[str, Record]:
         """Source of a log -> the model's answer to it."""
@@ -324,9 +333,7 @@ def load(
         extra = [name for name, value in {"inputs": inputs, "outputs": outputs, **given}.items() if value]
         if extra:
             raise BadInput(f"{source} has a dataset.toml that says what its logs are; leave out {', '.join(extra)}")
-        described = read_described(source)
-        data = Data(described.raw, described.raw, (), described.units, described.units, {})
-        return data.after(*described.steps)
+        return Data.of(read_described(source))
     if not inputs or not outputs:
         what = "inputs" if not inputs else "outputs"
         raise BadInput(f'which columns are {what}? Name them: {what}=["..."], as the headings have them', argument=what)

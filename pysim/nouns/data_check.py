@@ -4,9 +4,13 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from pysim.identify.data_check import DataCheck, Finding
+from pysim.identify.data_check import DataCheck, Finding, FindingCode
+from pysim.identify.data_check.finding import finding
+from pysim.io.prepare import Scaled
+from pysim.types import Dataset, Model
 
 _SHOWN = 1900  # letters
+_FACTORS = {("%", "1"): 0.01, ("1", "%"): 100.0}  # between units that are the same quantity, and are kept apart
 
 
 @dataclass(frozen=True, repr=False)
@@ -46,3 +50,20 @@ class Check:
         from html import escape
 
         return f"<pre>{escape(repr(self))}</pre>"
+
+
+def other_quantities(dataset: Dataset, model: Model) -> tuple[Finding, ...]:
+    """Findings of signals whose unit must be mended ahead of a simulation: of inputs that the model counts in another
+    quantity, and of shares in % and 1, whose factor no simulation has to tell."""
+    known, found = {v.name: v for v in model.variables}, []
+    for signal in dataset.signals:
+        variable = known.get(signal.variable)
+        logs = [record.source for record in dataset.logs() if signal.name in dataset.columns(record, signal.role)]
+        if variable is None or not logs or model.scale(variable, signal.unit) is not None:
+            continue
+        factor = _FACTORS.get((signal.unit, variable.unit))
+        if factor is not None or variable.causality == "input":
+            told = {"signal": signal.name, "unit": signal.unit, "wanted": variable.unit}
+            cure = () if factor is None else (Scaled(signal.name, factor, 0.0, variable.unit, signal.unit),)
+            found.append(finding(FindingCode.QUANTITY, logs[0], *cure, **told))
+    return tuple(found)

@@ -27,7 +27,6 @@ from pysim.types import (
     RecordFit,
     Signal,
     Variable,
-    conversion,
 )
 from pysim.types import Model as Compiled
 from pysim.types._frozen import FrozenMapping
@@ -541,7 +540,7 @@ class Model(Shown):
             )
         drives = {}
         for name, unit in columns:
-            scale = conversion(unit, wanted[name].unit) if model.declares_units else (1.0, 0.0)
+            scale = model.scale(wanted[name], unit)
             if scale is None:
                 raise BadInput(f"simulate: {name} of {log.source} is in {unit}, the input in {wanted[name].unit}")
             drives[name] = logged_command(log, name).times(scale[0]).plus(Signal.constant(scale[1]))

@@ -121,9 +121,6 @@ class Model:
     def measured(self, signal: MeasuredSignal, source: str) -> Variable:
         """The variable that a signal shows.
 
-        A model that declares no units at all counts in those of the data. Where it counts in a unit that is not known,
-        data in "1" are its own numbers.
-
         Args:
             source: where the signal is written, for an error: "data set 'x'" or "the plan".
         Raises:
@@ -140,7 +137,7 @@ class Model:
                 f"{said}: {variable.name} is no input but of causality {variable.causality} in {self.label}; name the "
                 f"command: variable = ... {below}"
             )
-        if self._counts_otherwise(variable, signal.unit):
+        if self.scale(variable, signal.unit) != (1.0, 0.0):
             own = "without a unit" if variable.unit == "1" else f"in {variable.unit!r}"
             cure = _unit_cure(variable.unit, signal.unit, below)
             raise BadInput(f"{said} is in {signal.unit!r}, {variable.name} of {self.label} {own}; {cure}")
@@ -155,11 +152,15 @@ class Model:
         more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
         return f"its {signal.role}s: {', '.join(names[:_LISTED]) or '(none)'}{more}", ""
 
-    def _counts_otherwise(self, variable: Variable, unit: str) -> bool:
-        """Whether a number in this unit is another number in the model."""
+    def scale(self, variable: Variable, unit: str) -> tuple[float, float] | None:
+        """Factor and offset that make a number in the unit of data that of a variable; None: of different quantities.
+
+        A model that declares no units at all counts in those of the data. Where it counts in a unit that is not known,
+        data in "1" are its own numbers.
+        """
         if not self.declares_units or (variable.unit not in UNITS and unit == "1"):
-            return False
-        return conversion(unit, variable.unit) != (1.0, 0.0)
+            return 1.0, 0.0
+        return conversion(unit, variable.unit)
 
 
 def _unit_cure(model: str, data: str, below: str) -> str:

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from pysim.workflow.answer import whole_answer
-    from pysim.workflow.data import BY_DATA, data_of, reference_of
+    from pysim.workflow.data import BY_DATA, data_of, described_at, reference_of
     from pysim.workflow.export import export_model
     from pysim.workflow.extended import write_extended
     from pysim.workflow.fitting import Initial, beginning, fit_problem, fitted, initial_values
@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 
 _FILES = {
     "answer": ("whole_answer",),
-    "data": ("BY_DATA", "data_of", "reference_of"),
+    "data": ("BY_DATA", "data_of", "described_at", "reference_of"),
     "export": ("export_model",),
     "extended": ("write_extended",),
     "fitting": ("Initial", "beginning", "fit_problem", "fitted", "initial_values"),
@@ -64,6 +64,7 @@ __all__ = [
     "class_name_of",
     "command_line",
     "data_of",
+    "described_at",
     "effect_class",
     "effects_of",
     "export_model",

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, Literal
 from pysim.workflow.shell import command_line
 
 if TYPE_CHECKING:
+    from pysim.io.dataset import Described
     from pysim.types import Dataset, FrequencyResponse
 
 BY_DATA: Final = "by data"
@@ -23,13 +24,25 @@ def data_of(place: Path | str) -> Dataset:
         BadInput: it cannot be read; of a folder without a description also how to come to one.
     """
     from pysim.io import read_dataset
+
+    return read_dataset(_described(place))
+
+
+def described_at(place: Path | str) -> Described:
+    """A data set with the steps of its preparation still to be done, to be looked at; as `data_of`."""
+    from pysim.io import read_described
+
+    return read_described(_described(place))
+
+
+def _described(place: Path | str) -> Path:
     from pysim.types import BadInput
 
     place = Path(place)
     if place.is_dir() and not (place / "dataset.toml").exists():
         draft = command_line(["data", "describe", str(place)])
         raise BadInput(f"{place} holds no dataset.toml; name the folder that does, or have one drafted: {draft}")
-    return read_dataset(place)
+    return place
 
 
 def reference_of(

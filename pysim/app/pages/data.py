@@ -19,8 +19,8 @@ from pysim.app.parts import Choice, Drop, Entry, Table, box, button, card, head,
 from pysim.app.records import measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted
-from pysim.present.data_check import sentence
-from pysim.present.notes import NOT_FITTED, USES, listed
+from pysim.present.data_check import assumed_between_samples, sentence
+from pysim.present.notes import NOT_FITTED, USES
 from pysim.types import UNITS, BadInput, Record
 from pysim.workflow import models_in
 
@@ -188,11 +188,8 @@ def _signals(desk: Desk) -> None:
                 _signal(desk, name, section, variables)
     for words in [*unfit(desk), *filter(None, starmap(description.uncounted, content["signals"].items()))]:
         note(words, "bad")
-    for signal in check.dataset.signals:
-        if logs := description.held_logs(check.dataset, signal):
-            where = listed(logs if len(logs) < 5 else [*logs[:4], f"{len(logs) - 4} more"])
-            told = f"{signal.name} is taken as held between its samples where it jumps, in {where}."
-            note(f"{told} If it ran on there, choose straight lines: the difference may be far more than the noise.")
+    for _, told in assumed_between_samples(check.dataset):
+        note(f"{told} Choose what it was between samples: the difference may be far more than the noise.")
 
 
 def _signal(desk: Desk, name: str, section: Mapping[str, Any], variables: list[str]) -> None:

@@ -8,18 +8,24 @@ from typing import TYPE_CHECKING
 
 from pysim.cli.command import DONE, Command, Given
 from pysim.cli.option import Role, argument, file, names, text
-from pysim.cli.options import DATASET, JSON, OUTPUT
+from pysim.cli.options import DATASET, JSON, LIBRARY, MODEL, OUTPUT
 
 if TYPE_CHECKING:
     from pysim.identify.data_check import DataCheck
-    from pysim.types import Dataset, MeasuredSignal
+    from pysim.io.dataset import Described
+    from pysim.types import MeasuredSignal
 
 
 def _check(given: Given) -> DataCheck:
-    """What is in it, and what should be looked at."""
-    from pysim.identify.data_check import check_dataset
+    """What is in it, and what should be looked at, beside a model too."""
+    from pysim.nouns.data import Data
+    from pysim.nouns.model import model
+    from pysim.types import BadInput
 
-    return check_dataset(given.dataset)
+    if given.library and not given.typed["model"]:
+        raise BadInput("--library: no model is named; add --model, or leave --library out")
+    beside = model(given.model, library=given.library) if given.typed["model"] else None
+    return Data.of(given.dataset).check(beside).result
 
 
 def _describe(given: Given) -> int:
@@ -84,18 +90,19 @@ def _units(texts: list[str]) -> dict[str, str]:
     return {signal.name: signal.unit for signal in signals}
 
 
-def _read(given: Given) -> Dataset:
+def _read(given: Given) -> Described:
     from pysim.io import read_thesis_folder
+    from pysim.io.dataset import Described
     from pysim.types import BadInput
-    from pysim.workflow import data_of
+    from pysim.workflow import described_at
 
     inputs, responses = given.input, given.response
     if not (inputs or responses):
-        return data_of(given.typed["dataset"])
+        return described_at(given.typed["dataset"])
     if len(inputs) != 1 or not responses:
         raise BadInput("logs without a dataset.toml need one --input NAME:UNIT and at least one --response NAME:UNIT")
     signals = [_signal("input", inputs[0]), *(_signal("output", text) for text in responses)]
-    return read_thesis_folder(given.typed["dataset"], signals)
+    return Described(read_thesis_folder(given.typed["dataset"], signals), (), {})
 
 
 def _signal(role: str, text: str) -> MeasuredSignal:
@@ -123,6 +130,10 @@ COMMAND = Command(
                 replace(DATASET, about="folder with a dataset.toml, or that file", read=_read),
                 names("--input", _COMMAND, "NAME:UNIT,..."),
                 names("--response", _BEHIND, "NAME:UNIT,..."),
+                replace(
+                    MODEL, about="model to check signs, units and columns with: an .fmu or a class", required=False
+                ),
+                LIBRARY,
                 JSON,
                 OUTPUT,
             ),

@@ -5,11 +5,11 @@ What is missing in a log stands as not-a-number in its column until a step fills
 
 from pysim.io.prepare.cut import Exclude, HoldOut, Split, Trim
 from pysim.io.prepare.filters import LowPass, Resample
-from pysim.io.prepare.gaps import FillGaps
+from pysim.io.prepare.gaps import FillGaps, refuse_missing_samples
 from pysim.io.prepare.log_names import logs_called, short_name
 from pysim.io.prepare.outliers import DropOutliers, outliers
 from pysim.io.prepare.signals import Delay, Detrend, Flip, Rename, Scaled
-from pysim.io.prepare.step import Step, call, prepared, refuse_missing_samples
+from pysim.io.prepare.step import Step, call, prepared
 from pysim.io.prepare.typed import step_typed, typed
 from pysim.io.prepare.written import STEPS, is_off, step_of, values_of
 

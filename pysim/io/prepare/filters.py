@@ -9,8 +9,9 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.prepare.gaps import even_step
 from pysim.io.prepare.interpolation import at_times
-from pysim.io.prepare.step import each_log, even_step, refuse_tables, signals_of, stands, with_columns
+from pysim.io.prepare.step import each_log, refuse_tables, signals_of, stands, with_columns
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record, sampling
 
 Array = NDArray[np.float64]

@@ -1,4 +1,4 @@
-"""Samples that are missing: filled where they are few, cut out where they are many."""
+"""Samples that are missing: filled where they are few, cut out where they are many, refused where a step needs all."""
 
 from __future__ import annotations
 
@@ -10,13 +10,16 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.io.counted import counted
 from pysim.io.prepare.cut import pieces
-from pysim.io.prepare.step import each_log, stands
+from pysim.io.prepare.log_names import short_name
+from pysim.io.prepare.step import call, each_log, stands
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record, sampling
 
 Array = NDArray[np.float64]
 
 _ROUNDING = 1e-6
+_FILLED = 10.0  # sampling intervals: longest gap that is filled by a straight line
 
 
 @dataclass(frozen=True)
@@ -90,3 +93,80 @@ def _pieces(missing: NDArray[np.bool_], cuts: NDArray[np.intp]) -> list[tuple[in
         turns = np.flatnonzero(np.diff(there))
         found += [(first + int(a), first + int(b)) for a, b in turns.reshape(-1, 2)]
     return found
+
+
+def fill_of(dataset: Dataset) -> FillGaps | None:
+    """The step that fills short gaps in all logs and cuts logs at longer ones; None if nothing is missing."""
+    short, steps, any_missing = [0.0], [], False
+    for record in dataset.logs():
+        log = record.data
+        if isinstance(log, Record) and log.time.size > 1:
+            step, lengths = sampling(log.time).step, _missing_lengths(log)
+            any_missing |= bool(lengths)
+            steps.append(step)
+            short += [length for length in lengths if length <= _FILLED * step * 1.01]
+    if not any_missing:
+        return None
+    return FillGaps(float(f"{max(*short, 1.5 * min(steps)) * 1.05:.2g}"))
+
+
+def _missing_lengths(log: Record) -> list[float]:
+    """Duration in s of every gap in time and run of empty cells, between the samples around it; infinite at an end."""
+    intervals = np.diff(log.time)
+    lengths = [float(intervals[k]) for k in sampling(log.time).gaps]
+    for column in log.values.T:
+        if np.isnan(column).any():
+            there = np.flatnonzero(np.isfinite(column))
+            behind = np.flatnonzero(np.diff(there) > 1)
+            lengths += [float(log.time[there[k + 1]] - log.time[there[k]]) for k in behind]
+            if not there.size or there[0] > 0 or there[-1] < column.size - 1:
+                lengths.append(float("inf"))  # at an end, there is no second sample to interpolate to
+    return lengths
+
+
+def even_step(dataset: Dataset, record: MeasuredRecord, log: Record) -> float:
+    """The sampling interval in s of a log that lacks no samples.
+
+    Raises:
+        BadInput: it has gaps.
+    """
+    refuse_missing_in(dataset, record, log)
+    found = sampling(log.time)
+    if found.gaps.size:
+        raise BadInput(f"{record.source} lacks samples after {log.time[found.gaps[0]]:.6g} s; {_cure(dataset)}")
+    return found.step
+
+
+def refuse_missing_in(dataset: Dataset, record: MeasuredRecord, log: Record) -> None:
+    """A log whose cells are all there.
+
+    Raises:
+        BadInput: one is empty, with its place and what fills it.
+    """
+    missing = ~np.isfinite(log.values)
+    if missing.any():
+        row, column = (int(index[0]) for index in np.nonzero(missing))
+        count = counted(int(missing[:, column].sum()), "sample")
+        where = f"{short_name(dataset, record)}: {log.names[column]} lacks {count}, the first at {log.time[row]:.6g} s"
+        raise BadInput(f"{where}; {_cure(dataset)}")
+
+
+def refuse_missing_samples(dataset: Dataset) -> None:
+    """A data set without empty cells; nothing can be fitted to those.
+
+    Raises:
+        BadInput: a log has one, with its place and what fills it.
+    """
+    for record in dataset.logs():
+        if isinstance(record.data, Record):
+            refuse_missing_in(dataset, record, record.data)
+
+
+def _cure(dataset: Dataset) -> str:
+    """What to type where samples are missing."""
+    step = fill_of(dataset)
+    assert step is not None
+    return (
+        f"data = data.{call(step)} fills short gaps and cuts logs at longer ones; "
+        f'in dataset.toml, preparation = [{{ step = "fill_gaps", longest = {step.longest:g} }}] below [dataset] does it'
+    )

@@ -8,8 +8,9 @@ from typing import ClassVar
 
 import numpy as np
 
+from pysim.io.prepare.gaps import refuse_missing_in
 from pysim.io.prepare.interpolation import at_times
-from pysim.io.prepare.step import each_log, refuse_missing_in, refuse_tables, rows, signals_of, stands, with_columns
+from pysim.io.prepare.step import each_log, refuse_tables, rows, signals_of, stands, with_columns
 from pysim.io.units import Scale, unit_cure
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, fields, replace
 from typing import ClassVar, Protocol
@@ -10,14 +9,11 @@ from typing import ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.io.counted import counted
-from pysim.io.prepare.log_names import logs_called, part_of, short_name
-from pysim.types import BadInput, Dataset, MeasuredRecord, Record, sampling
+from pysim.io.prepare.log_names import logs_called, part_of
+from pysim.types import BadInput, Dataset, MeasuredRecord, Record
 from pysim.types.record_kind import KINDS, Command
 
 Array = NDArray[np.float64]
-
-_GAP = 1.5  # sampling intervals: a longer one lacks samples; as in `sampling`
 
 
 class Step(Protocol):
@@ -147,62 +143,3 @@ def refuse_tables(dataset: Dataset, word: str) -> None:
     """Steps on samples leave tables of responses alone, which would then no longer agree with the logs."""
     if dataset.responses():
         raise BadInput(f"{word} is for logs, and this data set holds tables of responses; correct those by hand")
-
-
-def even_step(dataset: Dataset, record: MeasuredRecord, log: Record) -> float:
-    """The sampling interval in s of a log that lacks no samples.
-
-    Raises:
-        BadInput: it has gaps.
-    """
-    refuse_missing_in(dataset, record, log)
-    found = sampling(log.time)
-    if found.gaps.size:
-        length = float(np.diff(log.time)[found.gaps].max())
-        at = float(log.time[found.gaps[0]])
-        raise BadInput(
-            f"{record.source} lacks samples after {at:.6g} s; fill or cut them first: "
-            f"data.fill_gaps({_up(length):g}), or less to cut there"
-        )
-    return found.step
-
-
-def refuse_missing_in(dataset: Dataset, record: MeasuredRecord, log: Record) -> None:
-    """A log whose cells are all there.
-
-    Raises:
-        BadInput: one is empty, with its place and what fills it.
-    """
-    missing = ~np.isfinite(log.values)
-    if missing.any():
-        row, column = (int(index[0]) for index in np.nonzero(missing))
-        count = int(missing[:, column].sum())
-        longest = _up(_GAP * _longest(log.time, missing[:, column]))
-        raise BadInput(
-            f"{short_name(dataset, record)}: {log.names[column]} lacks {counted(count, 'sample')}, the first at "
-            f"{log.time[row]:.6g} s; data = data.fill_gaps({longest:g}) fills them, a smaller number cuts there"
-        )
-
-
-def refuse_missing_samples(dataset: Dataset) -> None:
-    """A data set without empty cells; nothing can be fitted to those.
-
-    Raises:
-        BadInput: a log has one, with its place and what fills it.
-    """
-    for record in dataset.logs():
-        if isinstance(record.data, Record):
-            refuse_missing_in(dataset, record, record.data)
-
-
-def _longest(time: Array, missing: NDArray[np.bool_]) -> float:
-    """s from the last sample ahead to the first one behind the longest run that is missing."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], missing, [False]]).astype(np.int8)))
-    first, last = np.maximum(edges[::2] - 1, 0), np.minimum(edges[1::2], time.size - 1)
-    return float((time[last] - time[first]).max())
-
-
-def _up(value: float) -> float:
-    """Rounded up to two digits."""
-    digit = 10.0 ** (math.floor(math.log10(value)) - 1)
-    return float(f"{math.ceil(value / digit - 1e-9) * digit:.6g}")

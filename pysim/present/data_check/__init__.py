@@ -3,6 +3,17 @@
 from pysim.identify.data_check import DataCheck
 from pysim.present.data_check.answer import data, page, text, warnings_in_words
 from pysim.present.data_check.figures import figures
+from pysim.present.data_check.held import assumed_between_samples
 from pysim.present.data_check.words import lines, sentence
 
-__all__ = ["DataCheck", "data", "figures", "lines", "page", "sentence", "text", "warnings_in_words"]
+__all__ = [
+    "DataCheck",
+    "assumed_between_samples",
+    "data",
+    "figures",
+    "lines",
+    "page",
+    "sentence",
+    "text",
+    "warnings_in_words",
+]

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from pysim.identify.data_check import DataCheck, RecordCheck
-from pysim.io import counted, shown_point
+from pysim.io import counted, shown_point, toml_key
 from pysim.io.prepare import call, typed
+from pysim.present.data_check.held import assumed_between_samples
 from pysim.present.data_check.words import cures, sentence
 from pysim.present.notes import USES
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
@@ -38,7 +39,7 @@ def text(check: DataCheck) -> str:
 
 
 def warnings_in_words(check: DataCheck) -> list[str]:
-    """Every finding, twenty at most, and what to type to cure them."""
+    """Every finding, twenty at most, what to type to cure them, and what is assumed of inputs between samples."""
     found = check.findings
     lines = [counted(len(found), "warning") + (":" if found else ", ready to use")]
     for one in found[:_SHOWN]:
@@ -51,6 +52,9 @@ def warnings_in_words(check: DataCheck) -> list[str]:
         lines.append("to cure, in Python or with `pysim data prepare`:")
         width = max(len(call(step)) for step in steps)
         lines += [f"  data = data.{call(step):<{width}}  # --step {typed(step)}" for step in steps]
+    for name, told in assumed_between_samples(check.dataset):
+        typed_in = f'load(..., hold={{"{name}": "zero"}}), or hold = "zero" below [signals.{toml_key(name)}]'
+        lines += textwrap.wrap(f'{told} Say what it was: {typed_in}; "linear" or "spline" if it was not held.', _WIDTH)
     return lines
 
 

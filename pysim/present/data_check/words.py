@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from pysim.identify.data_check import Finding, FindingCode
 from pysim.io import counted
 from pysim.io.prepare import Step, call
+from pysim.types import UNITS
 
 _WORDS: Mapping[FindingCode, str] = {
     FindingCode.NOT_IN_MODEL: (
@@ -18,10 +19,7 @@ _WORDS: Mapping[FindingCode, str] = {
     ),
     FindingCode.EMPTY: "{signal} lacks {samples}, the first at {start:.6g} s",
     FindingCode.GAP: "{gaps} of {length:.3g} s after {start:.6g} s",
-    FindingCode.QUANTITY: (
-        "{signal} is in {unit}, and the model counts it in {wanted}; by the model's answer one {unit} is {factor:.4g} "
-        "{wanted}, and the sensor's data sheet knows better"
-    ),
+    FindingCode.QUANTITY: "{signal} is in {unit}, and the model counts it in {wanted}; {scaled}",
     FindingCode.SWAPPED: "{signal} and {other} seem to be swapped: each follows the model's answer for the other",
     FindingCode.SIGN: "{signal} moves against the model's answer (correlation {correlation:.2f}): a turned sign?",
     FindingCode.FACTOR: "{signal} is about {factor:.4g} times the model's answer: another unit?",
@@ -31,7 +29,10 @@ _WORDS: Mapping[FindingCode, str] = {
     FindingCode.OUTLIERS: "{samples} of {signal} far off their neighbours, the first at {start:.6g} s",
     FindingCode.UNEVEN: "uneven sampling: the intervals vary by {jitter:.0f} percent",
     FindingCode.TOO_SHORT: "{rows} samples are too few; {least} are the least",
-    FindingCode.SLOW_CLOCK: ('{rate:.3g} samples per second: if time is in ms, write time_unit = "ms" below [dataset]'),
+    FindingCode.SLOW_CLOCK: (
+        '{rate:.3g} samples per second: if time is in ms, load it with units={{"time": "ms"}}, '
+        'or write time_unit = "ms" below [dataset]'
+    ),
     FindingCode.STILL: "{signal} stands still at {value:g} {unit}",
     FindingCode.FOLDED: (
         "{share:.0f} percent of the variance of {signal} lie above 80 percent of half the sampling rate: "
@@ -49,6 +50,9 @@ _WORDS: Mapping[FindingCode, str] = {
     FindingCode.LEVEL: "{what} of the logged {signal} is {value:.5g}, not {told:g} {unit} as specified",
 }
 
+_MEASURED = "by the model's answer one {unit} is {factor:.4g} {wanted}, and the sensor's data sheet knows better"
+_KNOWN = "100 % are 1"
+_OPEN = 'put how many {to} one {unit} is for the dots: data = data.scale("{signal}", ..., unit="{to}", of="{unit}")'
 _SHARES = ("share", "jitter")  # shown in percent
 
 
@@ -57,6 +61,9 @@ def sentence(found: Finding) -> str:
     words: dict[str, float | str] = dict(found.values)
     if "count" in words:
         words["samples"] = counted(int(words["count"]), "sample")
+    if found.code is FindingCode.QUANTITY:
+        words["to"] = words["wanted"] if words["wanted"] in UNITS else "1"
+        words["scaled"] = (_MEASURED if "factor" in words else _KNOWN if found.cure else _OPEN).format(**words)
     if found.code is FindingCode.GAP:
         count = int(words["count"])
         words["gaps"] = f"{count} gaps in time, the longest" if count > 1 else "a gap in time,"

@@ -1,15 +1,12 @@
 """dataset.toml edited: what is written reads back, and what is refused leaves it as it was."""
 
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 
 from pysim.app.description import (
     change_description,
-    held_logs,
     leave_out,
     put_role,
     put_unit,
@@ -19,7 +16,7 @@ from pysim.app.description import (
     uncounted,
 )
 from pysim.io import read_dataset, write_dataset
-from pysim.types import BadInput, Record
+from pysim.types import BadInput
 from pysim.types.record_kind import Command
 from tests.toy import measured
 
@@ -132,20 +129,6 @@ def test_an_input_says_how_it_runs_between_samples_until_it_is_none(path: Path) 
     assert "hold" not in content["signals"]["F"]
     put_role(content, "F", "left out")
     assert list(content["signals"]) == ["x"]
-
-
-def test_inputs_that_jump_are_said_to_be_held_until_somebody_says_how_they_run() -> None:
-    data = measured(1)
-    first, second = data.records
-    assert isinstance(first.data, Record)
-    steps = np.where(first.data.time < 5.0, 0.0, 3.0)
-    jumping = replace(first.data, values=np.column_stack([steps, first.data["x"]]))
-    data = replace(data, records=(replace(first, data=jumping), second))
-    signal = data.signal("F")
-    assert held_logs(data, signal) == ["a.txt"]
-    assert held_logs(data, replace(signal, hold=Command.LINES)) == []
-    assert held_logs(data, data.signal("x")) == []
-    assert held_logs(replace(data, records=(first, replace(second, kind="step"))), signal) == ["b.txt"]
 
 
 def test_a_signal_in_volts_does_not_count_as_bar_without_a_factor(path: Path) -> None:

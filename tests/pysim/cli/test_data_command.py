@@ -7,11 +7,15 @@ from typing import Any
 import numpy as np
 import pytest
 
+import pysim
 from pysim.cli import main
 from pysim.io import read_dataset, write_dataset
+from pysim.io.prepare import call, typed
+from pysim.nouns.data import load
 from pysim.present.report import MARKER
-from pysim.types import Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
+from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
 from tests.pysim.cli.ran import refused
+from tests.toy import library
 
 SIGNALS = (
     MeasuredSignal("cmd", "input", "Pa", "command", "cmd"),
@@ -89,6 +93,45 @@ def test_folders_without_a_description(folder: Path, tmp_path: Path) -> None:
         (folder / name).unlink()
     found = numbers_of(tmp_path, str(folder), "--input", "cmd:bar", "--response", "y:%")
     assert len(found["records"]) == 6  # the wave's name tells no frequency
+
+
+def test_empty_cells_are_reported_and_the_same_step_is_named_everywhere(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    time = np.arange(400) / 100
+    y = np.cos(time)
+    y[100:104] = y[300:380] = np.nan  # the second gap is too long for a straight line
+    data = load({"t": time, "F [N]": np.sin(time), "y [mm]": y}, inputs="F", outputs="y", time="t")
+    (step,) = data.check().findings[0].cure
+    (tmp_path / "set").mkdir()
+    rows = ["time [s],F [N],y [mm]", *(f"{t},{np.sin(t)},{v}".replace("nan", "") for t, v in zip(time, y, strict=True))]
+    (tmp_path / "set" / "log.csv").write_text("\n".join(rows))
+    assert main(["data", "describe", str(tmp_path / "set")]) == 0
+    found = numbers_of(tmp_path, str(tmp_path / "set"), "--output", str(tmp_path / "report"))
+    assert (found["warnings"], found["cures"]) == (1, [typed(step)])
+    assert load(tmp_path / "set").check().lines == data.check().lines
+    for refused_by in (lambda: data.dataset, lambda: data.resample(50), lambda: read_dataset(tmp_path / "set")):
+        with pytest.raises(BadInput) as error:
+            refused_by()
+        assert f"data = data.{call(step)} " in str(error.value)
+    description = tmp_path / "set" / "dataset.toml"
+    line = str(error.value).partition("in dataset.toml, ")[2].partition(" below [dataset]")[0]
+    description.write_text(description.read_text().replace("[dataset]", f"[dataset]\n{line}"))
+    cut = read_dataset(tmp_path / "set")
+    assert [r.data.time.size for r in cut.records] == [r.data.time.size for r in data.after(step).dataset.records]
+    assert numbers_of(tmp_path, str(tmp_path / "set"))["warnings"] == 0
+
+
+def test_the_check_simulates_a_model(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    time = np.arange(400) / 100
+    mass = pysim.model("Toy.Mass", library=library())
+    x = mass.simulate(3.99, dt=0.01, F=np.column_stack([time, 10 * np.sin(time)])).record["x"]
+    columns = {"t": time, "F [N]": 10 * np.sin(time), "x [mm]": -1e3 * x}
+    load(columns, inputs="F", outputs="x", time="t").save(tmp_path / "set")
+    beside = ["--model", "Toy.Mass", "--library", str(library())]
+    assert numbers_of(tmp_path, str(tmp_path / "set"))["cures"] == []
+    assert numbers_of(tmp_path, str(tmp_path / "set"), *beside)["cures"] == ["flip:x"]
+    refused(["data", "check", str(tmp_path / "set"), *beside[2:]], capsys, "no model is named")
 
 
 @pytest.mark.parametrize(

@@ -87,7 +87,9 @@ def test_a_clock_of_another_pace_is_told(tmp_path: Path, capsys: pytest.CaptureF
     (tmp_path / "dataset.toml").unlink()
     write(log, "t [ms],cmd [%],y [bar]")
     write(tmp_path / "other.csv", "t [s],cmd [%],y [bar]")
-    refused(["data", "describe", str(tmp_path)], capsys, "ms in log.csv, s in other.csv", "a folder of their own")
+    refused(["data", "describe", str(tmp_path)], capsys, "ms in log.csv, s in other.csv", "a folder of its own")
+    write(tmp_path / "other.csv", "t,cmd [%],y [bar]")
+    refused(["data", "describe", str(tmp_path)], capsys, "ms in log.csv, s in other.csv, whose heading tells no unit")
 
 
 def test_signals_are_counted_where_the_headings_are_others(tmp_path: Path) -> None:

@@ -112,6 +112,33 @@ def test_clipped_stretches_are_left_out(data: Data) -> None:
     assert len(own["data"]) == len(found.cure) + 1  # one more stretch than is left out
 
 
+def test_a_unit_that_keeps_the_model_from_being_simulated_is_a_finding(tmp_path: Path) -> None:
+    force = load({"t": TIME, "F [V]": FORCE, "x [m]": PLACE}, inputs="F", outputs="x", time="t")
+    mass = pysim.model("Toy.Mass", library=library())
+    (found,) = force.check(mass).findings
+    assert (found.code, found.values["signal"], found.cure) == (FindingCode.QUANTITY, "F", ())
+    said = " ".join(repr(force.check(mass)).split())
+    typed = said[said.index("data = data.scale(") :].replace("...", "1.0")
+    own = {"data": force}
+    exec(typed, own)
+    assert FindingCode.QUANTITY not in {one.code for one in own["data"].check(mass).findings}
+    (tmp_path / "Lag.mo").write_text(
+        'model Lag parameter Real T(unit="s") = 0.05; input Real u(unit="1"); '
+        'output Real y(unit="%", start=0, fixed=true); equation T*der(y) = 100*u - y; end Lag;'
+    )
+    lag = pysim.model(tmp_path / "Lag.mo")
+    y = lag.simulate(TIME[-1], dt=1 / RATE, u=FORCE / 400).record["y"]
+    shares = load({"t": TIME, "u [%]": FORCE / 4, "y [1]": y / 100}, inputs="u", outputs="y", time="t")
+    assert shares.check(lag).lines == (
+        'data = data.scale("u", factor=0.01, unit="1", of="%")',
+        'data = data.scale("y", factor=100, unit="%", of="1")',
+    )
+    for found in shares.check(lag).findings:
+        shares = shares.after(*found.cure)
+    assert shares.check(lag).ok
+    np.testing.assert_allclose(shares["log"].data["u"], FORCE / 400, rtol=1e-12)
+
+
 def test_what_is_measured_and_what_is_driven_is_held_against_the_model() -> None:
     """Otherwise the first word of it would be a fit that refuses the data, or none at all of an input that stands."""
     mass = pysim.model("Toy.Mass", library=library())
@@ -128,3 +155,15 @@ def test_what_is_measured_and_what_is_driven_is_held_against_the_model() -> None
     right = load({"t": TIME, "F [N]": FORCE, "x [m]": PLACE}, inputs="F", outputs="x", time="t")
     names = {FindingCode.NOT_IN_MODEL, FindingCode.NOT_DRIVEN}
     assert not names & {one.code for one in right.check(mass).findings}
+
+
+def test_a_slow_log_is_loaded_in_ms_as_its_finding_says() -> None:
+    columns = {"time": 1e3 * TIME, "F [N]": FORCE, "x [m]": PLACE}
+    slow = load(columns, inputs="F", outputs="x")
+    (found,) = slow.check().findings
+    assert found.code is FindingCode.SLOW_CLOCK
+    said = " ".join(repr(slow.check()).split())
+    units = eval(said[said.index("units={") + 6 : said.index("}") + 1])
+    cured = load(columns, inputs="F", outputs="x", units=units)
+    assert cured.check().ok
+    assert cured["log"].data.time[-1] == pytest.approx(TIME[-1])
