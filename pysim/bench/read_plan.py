@@ -13,7 +13,7 @@ from pysim.bench.plan import Plan
 from pysim.bench.sensor import Sensor
 from pysim.excitation import Chirp, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
 from pysim.io import SI, SIGNAL_KEYS, Section, described_signal, read_toml, signal_in_si
-from pysim.types import BadInput, MeasuredSignal
+from pysim.types import BadInput, MeasuredSignal, with_place
 from pysim.types.dataset import USES
 from pysim.types.record_kind import STEPPED_SINE
 
@@ -86,7 +86,7 @@ def _sensor(signal: MeasuredSignal, section: Section) -> Sensor:
     to_si = SI[signal.unit][1]
     low, high = (section.optional_number(key) for key in ("low", "high"))
     low, high = (None if value is None else to_si * value for value in (low, high))
-    return _told(section, lambda: Sensor(signal_in_si(signal), low, high, section.positive("rate")))
+    return with_place(section.place, lambda: Sensor(signal_in_si(signal), low, high, section.positive("rate")))
 
 
 def _logger(section: Section) -> Logger:
@@ -96,14 +96,14 @@ def _logger(section: Section) -> Logger:
         raise BadInput(f"{section.place}: give rate = Hz, or rates = [[signals, Hz], ...], one of them")
     rates = section.pairs("rates") if "rates" in section.values else ((1, section.number("rate")),)
     jitter, tick = (section.not_negative(key) or 0.0 for key in ("jitter", "tick"))
-    return _told(section, lambda: Logger(tuple((int(count), rate) for count, rate in rates), jitter, tick))
+    return with_place(section.place, lambda: Logger(tuple((int(count), rate) for count, rate in rates), jitter, tick))
 
 
 def _lead(section: Section, usual: LeadIn) -> LeadIn:
     section.refuse_unknown(_LEAD)
     told = {name: section.optional_number(name) for name in _LEAD}
     durations = {name: getattr(usual, name) if value is None else value for name, value in told.items()}
-    return _told(section, lambda: LeadIn(**durations))
+    return with_place(section.place, lambda: LeadIn(**durations))
 
 
 def _test(section: Section, signals: Mapping[str, MeasuredSignal], inputs: tuple[str, ...], lead: LeadIn) -> BenchTest:
@@ -117,15 +117,7 @@ def _test(section: Section, signals: Mapping[str, MeasuredSignal], inputs: tuple
     common |= {"use": section.text("use", "fit", among=USES)}
     common |= {"folder": section.text("folder")} if "folder" in section.values else {}
     own_lead = _lead(section.inner("lead"), lead)
-    return _told(section, lambda: make(section, SI[signals[driven].unit][1], own_lead, common))
-
-
-def _told(section: Section, make: Callable[[], Any]) -> Any:
-    """What a value object refuses is said with its place in the file."""
-    try:
-        return make()
-    except BadInput as error:
-        raise error if section.place in str(error) else BadInput(f"{section.place}: {error}") from error
+    return with_place(section.place, lambda: make(section, SI[signals[driven].unit][1], own_lead, common))
 
 
 def _sines(section: Section, unit: float, lead: LeadIn, common: dict[str, Any]) -> BenchTest:

@@ -155,9 +155,13 @@ def _dataset(given: Given) -> Dataset | list[Dataset]:
 
 def _model(given: Given) -> Model:
     from pysim.present.progress import Working
-    from pysim.workflow import is_fmu, model_of
+    from pysim.types import BadInput
+    from pysim.workflow import class_in, is_fmu, model_of
 
     name = given.typed["model"]
+    if name.lower().endswith(".mo") or (Path(name).is_dir() and not given.library):
+        class_name = "CLASS" if Path(name).is_dir() else class_in(Path(name))
+        raise BadInput(f"{name} holds Modelica text; name the class, and where it lies: {class_name} --library {name}")
     with nullcontext() if is_fmu(name) else Working(f"Building {name}"):
         return model_of(name, given.library)
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -24,7 +24,7 @@ from pysim.cosim.sampled import Sampled
 from pysim.cosim.system import System
 from pysim.io import Section, TomlFile, read_model, read_signal, read_toml
 from pysim.simulate import Rodas
-from pysim.types import BadInput, Experiment, Signal
+from pysim.types import BadInput, Experiment, Signal, with_place
 
 _FMU = ("fmu", "interface", "parameters", "record", "tolerance", "events", "feedthrough", "isolated", "time_limit")
 _BLOCK = ("block", "settings", "every", "delay", "hold")
@@ -72,20 +72,20 @@ def read_system_file(path: Path | str, *, stop: float | None = None, step: float
         raise BadInput(f"{run.place}: step is missing; write step = and the seconds between two communication points")
     parts = [_member(name, section, path.parent, size) for name, section in toml.tables("members").items()]
     wires = toml.rows("connections", "connection") if "connections" in toml.whole.values else ()
-    members = _told(str(path), lambda: wired(parts, [(one.text("from"), one.text("to")) for one in wires]))
-    unwired = _told(str(path), lambda: System(members))
-    connections = tuple(_told(one.place, partial(_connection, one, unwired)) for one in wires)
-    system = _told(str(path), lambda: System(members, connections, _bonds(toml)))
-    experiment = _told(run.place, lambda: _experiment(toml, run, system, size, stop))
+    members = with_place(str(path), lambda: wired(parts, [(one.text("from"), one.text("to")) for one in wires]))
+    unwired = with_place(str(path), lambda: System(members))
+    connections = tuple(with_place(one.place, partial(_connection, one, unwired)) for one in wires)
+    system = with_place(str(path), lambda: System(members, connections, _bonds(toml)))
+    experiment = with_place(run.place, lambda: _experiment(toml, run, system, size, stop))
     _check_driven(path, system, experiment)
-    _told(str(path), lambda: check_heard(system, run.texts("record") if "record" in run.values else ()))
+    with_place(str(path), lambda: check_heard(system, run.texts("record") if "record" in run.values else ()))
     return SystemFile(
         name=head.text("name", path.stem),
         system=system,
         experiment=experiment,
         step=size,
         order=_order(run),
-        doubling=_told(run.place, lambda: _doubling(run)),
+        doubling=with_place(run.place, lambda: _doubling(run)),
     )
 
 
@@ -96,15 +96,6 @@ def _check_driven(path: Path, system: System, experiment: Experiment) -> None:
             f'{path}: nothing drives {", ".join(free)}; add [[connections]] with to = "{free[0]}", or under [inputs] a '
             f"number or a file, {free[0]} = 0.0"
         )
-
-
-def _told(place: str, make: Callable[[], Any]) -> Any:
-    """What a value object refuses is said with its place in the file, if it does not yet begin with one."""
-    try:
-        return make()
-    except BadInput as error:
-        told = str(error).startswith(place.partition(", line ")[0])
-        raise error if told or place in str(error) else BadInput(f"{place}: {error}") from error
 
 
 def _member(name: str, section: Section, folder: Path, step: float) -> Any:
@@ -136,7 +127,7 @@ def _fmu(name: str, section: Section, folder: Path) -> Any:
             return fmu
         return Isolated(fmu) if limit is None else Isolated(fmu, time_limit=limit)
 
-    return _told(section.place, make)
+    return with_place(section.place, make)
 
 
 def _block(name: str, section: Section, folder: Path, step: float) -> Sampled | Unwired:
@@ -146,7 +137,7 @@ def _block(name: str, section: Section, folder: Path, step: float) -> Sampled | 
     block = made(python_class(text, folder, section.place), settings, text, section.place)
     every = section.positive("every") or getattr(block, "dt", None) or step
     delay, hold = section.not_negative("delay") or 0.0, section.integer("hold", 0)
-    return _told(section.place, lambda: sampled(name, block, every, delay, hold))
+    return with_place(section.place, lambda: sampled(name, block, every, delay, hold))
 
 
 def _other(name: str, section: Section, folder: Path) -> Any:
@@ -213,10 +204,10 @@ def _inputs(toml: TomlFile) -> dict[str, Signal]:
 
 def _signal(value: Any, place: str, toml: TomlFile) -> Signal:
     if isinstance(value, str):
-        return _told(place, lambda: read_signal(toml.path.parent / value, place))
+        return with_place(place, lambda: read_signal(toml.path.parent / value, place))
     if isinstance(value, bool) or not isinstance(value, (int, float)):
         raise BadInput(f'{place} is {value!r}; write a number, or the name of a file as "reference.csv"')
-    return _told(place, lambda: Signal.constant(float(value)))
+    return with_place(place, lambda: Signal.constant(float(value)))
 
 
 def _numbers(section: Section) -> dict[str, float]:

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pysim.excitation import Excitation, Multisine, StochasticWave
-from pysim.present.page import heading, items, paragraph, pictures
+from pysim.present.page import heading, items, pictures
 from pysim.present.page import page as whole_page
 from pysim.present.render import Drawing, Picture
 from pysim.present.style import BAND, COLOURS, MEASURED, frequency_axis, legend_above, panels, size_axis
@@ -46,7 +46,7 @@ class Played:
         test: the signal.
         unit: of the command.
         sampling_hz: rows per second of the file.
-        settings: all of them in one line.
+        settings: the line that makes it again, with all of them.
     """
 
     file: Path
@@ -72,10 +72,9 @@ def figures(result: Played) -> Iterator[Picture]:
 
 
 def page(result: Played, drawings: Sequence[Drawing], redo: str) -> str:
-    """What is played, with its settings, and the picture."""
-    parts = [heading("What is played"), items(_facts(result)), paragraph(result.settings)]
-    parts += pictures(drawings)
-    return whole_page(f"Test signal: {result.kind}", result.about, parts)
+    """What is played, the picture, and the settings."""
+    parts = [heading("What is played"), items(_facts(result)), *pictures(drawings)]
+    return whole_page(f"Test signal: {result.kind}", result.about, parts, result.settings)
 
 
 def _facts(result: Played) -> list[str]:

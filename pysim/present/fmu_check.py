@@ -56,7 +56,7 @@ def figures(result: Checked) -> Iterator[Picture]:
 def page(result: Checked, drawings: Sequence[Drawing], redo: str) -> str:
     """A section per FMU with every claim."""
     parts = [part for report in result.reports for part in _section(report)]
-    return whole_page("FMUs under check", "As a strict importer would try them.", parts)
+    return whole_page("FMUs under check", "As a strict importer would try them.", parts, redo)
 
 
 def _sentence(report: FmuReport) -> str:

@@ -11,9 +11,12 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 from pysim.types import ErrorStep, ProgressEvent, step_data
+
+if TYPE_CHECKING:
+    from pysim.identify.greybox import Tried
 
 Listener = Callable[[ProgressEvent], None]
 Progress = Callable[[ProgressEvent], object] | bool | None
@@ -135,10 +138,10 @@ class Working:
 
     def _tell(self) -> None:
         """Lines where nothing can be drawn over."""
-        text, pause = f"{self._title} ...", _MOMENT
+        pause = _MOMENT
         while not self._ended.wait(pause):
-            print(text, file=sys.stderr, flush=True)
-            text, pause = f"{self._title} ... {self._elapsed():.0f} s", _PAUSE
+            print(*self.lines(), file=sys.stderr, flush=True)
+            pause = _PAUSE
 
 
 class ProgressBar(Working):
@@ -162,6 +165,16 @@ class ProgressBar(Working):
         self._ended.wait()
         if self.stays:
             print(self._line, file=sys.stderr, flush=True)
+
+
+class Searching(Working):
+    """A search for parameters: its points, and the least cost so far."""
+
+    stays = True
+
+    def __call__(self, tried: Tried) -> None:
+        """Show where it is."""
+        self._title = f"{tried.search}: point {tried.tried}, cost {tried.best:.6g}"
 
 
 class Unfolding(Working):

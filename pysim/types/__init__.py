@@ -22,7 +22,7 @@ from pysim.types.comparison import Comparison, ResponseComparison
 from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
 from pysim.types.effect import Effect, EffectParameter
-from pysim.types.errors import BadInput, printable
+from pysim.types.errors import BadInput, printable, with_place
 from pysim.types.experiment import Experiment
 from pysim.types.fit import (
     Combination,
@@ -116,4 +116,5 @@ __all__ = [
     "sampling",
     "setting",
     "step_data",
+    "with_place",
 ]

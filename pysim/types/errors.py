@@ -1,6 +1,23 @@
 """The user's mistake, as a type."""
 
+from collections.abc import Callable
+from typing import TypeVar
+
+_T = TypeVar("_T")
 _RED, _PLAIN = "\x1b[31m", "\x1b[0m"
+
+
+def with_place(place: str, make: Callable[[], _T]) -> _T:
+    """What `make` gives. What it refuses is said with its place in a file, if that is not said yet.
+
+    Args:
+        place: file, line and table, as far as they are known.
+    """
+    try:
+        return make()
+    except BadInput as error:
+        said = str(error).startswith(place.partition(", line ")[0]) or place in str(error)
+        raise error if said else BadInput(f"{place}: {error}") from error
 
 
 def printable(text: str) -> str:

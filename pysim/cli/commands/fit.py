@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -27,7 +26,7 @@ from pysim.cli.options import (
 from pysim.cli.outputs import LOG
 
 if TYPE_CHECKING:
-    from pysim.identify.greybox import Problem, Tried
+    from pysim.identify.greybox import Problem
     from pysim.present.fit import Fitted
     from pysim.types import Dataset, Model
 
@@ -37,7 +36,7 @@ def run(given: Given) -> Fitted:
     from pysim.identify.greybox import OBJECTIVES, Effort, GaussNewton, InteriorPoint, Processes, Simulation, profile
     from pysim.io import in_model_units
     from pysim.present.fit import Fitted
-    from pysim.present.progress import Working, announce_compilation
+    from pysim.present.progress import Searching, Working, announce_compilation
     from pysim.workflow import fitted
 
     model = given.model
@@ -48,14 +47,14 @@ def run(given: Given) -> Fitted:
     log = given.output / LOG if given.output else None
     optimiser = {"gauss-newton": GaussNewton(), "interior-point": InteriorPoint(), None: None}[given.optimiser]
     announce_compilation()
-    with given.going_on("fit"):
+    with given.going_on("fit"), Searching("Fitting") as shown:
         found = fitted(
             problem,
             objective=OBJECTIVES[given.objective],
             optimiser=optimiser,
             simulation=simulation,
             effort=Effort(given.starts, given.seed, log=log, resume=log is not None),
-            progress=_say,
+            progress=shown,
         )
     result = Fitted(found, datasets)
     for name in given.profile:  # each may take as long as the fit
@@ -72,10 +71,6 @@ def _forget(given: Given, _: Fitted) -> None:
 
     for state in (given.output / LOG).glob(f"*/{STATE}") if given.output else ():
         state.unlink()
-
-
-def _say(tried: Tried) -> None:
-    print(f"\r{tried.search}: point {tried.tried}, cost {tried.best:.6g}   ", end="", file=sys.stderr, flush=True)
 
 
 def _refuse_unprofiled(problem: Problem, profiled: Sequence[str]) -> None:

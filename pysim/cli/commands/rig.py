@@ -89,7 +89,7 @@ def _run(
 
 
 _SHARED = (
-    number("--dt", "SECONDS", 1e-3, "step of controllers and coupling"),
+    number("--dt", "SECONDS", 1e-3, "sampling time of the controllers, and step of the co-simulation"),
     Option(("--fmi",), "FMI version of the FMUs", "2|3", default=2, convert=int, choices=("2", "3")),
     choice("--interface", "co-simulation", ("co-simulation", "model-exchange"), "kind of FMU"),
     JSON,
@@ -102,7 +102,7 @@ COMMAND = Command(
     parts=(
         Command(
             "step",
-            "Steps of speed and load pressure.",
+            "A step of the shaft's speed, and one of the load pressure at that speed.",
             _step,
             options=(
                 number("--speed", "RAD/S", 30.0, "size of the speed's step"),
@@ -113,13 +113,13 @@ COMMAND = Command(
         ),
         Command(
             "heave",
-            "A wave.",
+            "Heave compensation: a vessel heaves in a random sea, and each load controller holds the payload still.",
             _heave,
             options=(
-                number("--height", "M", 2.0, "significant height"),
-                number("--period", "SECONDS", 10.0, "peak period"),
-                number("--seed", "N", 1, "random seed of the wave's phases", convert=int),
-                number("--length", "SECONDS", 60.0, "length of the wave"),
+                number("--height", "M", 2.0, "significant height of the waves"),
+                number("--period", "SECONDS", 10.0, "peak period of the waves"),
+                number("--seed", "N", 1, "random seed of the waves", convert=int),
+                number("--length", "SECONDS", 60.0, "time in the waves, after 3 s at rest"),
                 *_SHARED,
             ),
         ),

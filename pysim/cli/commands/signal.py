@@ -72,9 +72,12 @@ def _refuse_slow_sampling(test: Excitation, sampling_hz: float) -> None:
 
 
 def _settings(given: Given) -> str:
-    """All of them in one line, so that the file tells what it is."""
-    told = (f"{key} {value}" for key, value in given.typed.items() if key not in _PLACES and value is not None)
-    return f"{given.command.name}: {', '.join(told)}"
+    """The line that makes it again, with all of them, so that the file tells what it is."""
+    from pysim.workflow import command_line
+
+    values = ((option, given.typed[option.key]) for option in given.command.options)
+    parsed = ((one, value if isinstance(value, bool | None) else [(str(value), value)]) for one, value in values)
+    return command_line(["signal", given.command.name, *(word for one, value in parsed for word in one.words(value))])
 
 
 def _lead(given: Given) -> LeadIn:
@@ -128,7 +131,6 @@ def _needed(flag: str, unit: str, about: str) -> Option:
 
 _AMPLITUDE = _needed("--amplitude", "A", "amplitude of the sine, in the command's unit")
 _SEED = number("--seed", "N", 0, "random seed of the phases", convert=int)
-_PLACES = ("file", "output")
 
 
 def _plan(given: Given) -> int:

@@ -35,7 +35,7 @@ class _Kept:
 class Isolated:
     """A member whose run takes place in a process of its own; a `Member` itself.
 
-    A step costs some 100 us more. What the other process prints is lost but for its standard error.
+    A step costs some 100 us more. What the other process prints goes to standard error.
 
     Args:
         member: an Fmu, or another member that can be pickled before it is started.

@@ -20,7 +20,7 @@ from pysim.cosim.ssp._parameters import Value, bound_values, in_units_of, inside
 from pysim.cosim.system import System
 from pysim.cosim.system_file import SystemFile
 from pysim.io import extracted, read_model
-from pysim.types import BadInput, Experiment
+from pysim.types import BadInput, Experiment, with_place
 
 Element = ElementTree.Element
 _INTERFACE = {"CoSimulation": "co-simulation", "ModelExchange": "model-exchange", "any": ""}
@@ -49,7 +49,8 @@ def read_ssp(path: Path | str, *, stop: float | None = None, step: float | None 
     run = root.find(f".//{{{RUN}}}Run")
     names = () if run is None else tuple(r.get("name", "") for r in run.iterfind(f"{{{RUN}}}Record"))
     members = _members(path, folder, system, names)
-    wired = _told(path, members, tuple(_wires(path, system, _told(path, members, ()))))
+    wires = tuple(_wires(path, system, with_place(str(path), lambda: System(members))))
+    wired = with_place(str(path), lambda: System(members, wires))
     size = _step(path, root) if step is None else step
     return SystemFile(
         name=root.get("name") or path.stem,
@@ -83,13 +84,6 @@ def _flat(path: Path, root: Element) -> Element:
             kind = nested.tag.rpartition("}")[2]
             raise BadInput(f"{path}: {nested.get('name')} is a {kind}; flatten the system into components")
     return system
-
-
-def _told(path: Path, members: tuple[Fmu, ...], wires: tuple[Connection, ...]) -> System:
-    try:
-        return System(members, wires)
-    except BadInput as error:
-        raise BadInput(f"{path}: {error}") from error
 
 
 def _members(path: Path, folder: Path, system: Element, recorded: tuple[str, ...]) -> tuple[Fmu, ...]:

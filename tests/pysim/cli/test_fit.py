@@ -10,9 +10,9 @@ import pytest
 
 from fmu_build.cli import main as build_command
 from pysim.cli import main
-from pysim.cli.commands import fit as fit_command
 from pysim.identify.greybox import Profile, Tried
 from pysim.io import read_model, write_dataset
+from pysim.present.progress import Searching
 from pysim.present.report import MARKER
 from tests.pysim.cli.ran import Ran, refused
 from tests.pysim.identify.greybox import measurements as m
@@ -41,12 +41,12 @@ def test_a_stopped_fit_goes_on_with_the_same_command(
     """To the same numbers, bit for bit, and without a point that was known; another fit is refused meanwhile."""
     out, points = tmp_path / "out", []
 
-    def stop(tried: Tried) -> None:
+    def stop(_: Searching, tried: Tried) -> None:
         points.append((tried.search, tried.tried))
         if len(points) == 2:
             raise KeyboardInterrupt
 
-    monkeypatch.setattr(fit_command, "_say", stop)
+    monkeypatch.setattr(Searching, "__call__", stop)
     words = [*fitted.words, "--output", str(out)]
     assert main(words) == 2
     assert "the same command goes on" in capsys.readouterr().err

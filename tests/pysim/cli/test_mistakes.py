@@ -122,6 +122,8 @@ MISTAKES = [
     (["check-fmu", "nowhere.fmu"], ["nowhere.fmu"]),
     (["check-fmu", "broken.fmu"], ["broken.fmu is not an FMU", "export it again"]),
     (["model", "Axsi", "--library", "Axis.mo"], ["class Axsi", "near it: Axis"]),
+    (["model", "Axis.mo"], ["name the class", "Axis --library Axis.mo"]),
+    (["model", "mine"], ["name the class", "CLASS --library mine"]),
     (["model", "Axis", "--library", "nowhere"], ["the library nowhere does not exist", "package.mo"]),
     ([*RUN, "--stop", "0"], ["--stop 0", "must be positive"]),
     ([*RUN, "--step", "1e-12"], ["rows are more than", "widen the step"]),

@@ -1,5 +1,7 @@
 """`pysim signal`: the file holds the signal that was asked for."""
 
+import html
+import shlex
 from pathlib import Path
 
 import numpy as np
@@ -51,6 +53,24 @@ def test_output_writes_picture_and_page(words: str, stem: str, tmp_path: Path) -
     assert f"value [{'V' if stem == 'chirp' else '%'}]" in (tmp_path / "s.csv").read_text()
 
 
+@pytest.mark.parametrize(
+    "words",
+    [
+        "step --offset=-1e-7 --height -2 --length 1 --back --ramp-down 0 --rest 0",
+        "multisine --period 5 --peak 9 --lines odd --seed 3 --unit 'mm of oil'",
+    ],
+)
+def test_file_and_page_hold_the_line_that_makes_them_again(words: str, tmp_path: Path) -> None:
+    file, page = tmp_path / "my signals" / "s.csv", tmp_path / "r" / "report.html"
+    assert main(["signal", *shlex.split(words), "-o", str(file), "--output", str(page.parent)]) == 0
+    held, line = file.read_bytes(), file.read_text().splitlines()[0].removeprefix("# ")
+    assert html.escape(line) in page.read_text()
+    file.unlink()
+    again = shlex.split(line)
+    assert main(again[again.index("signal") :]) == 0
+    assert file.read_bytes() == held
+
+
 def test_without_its_picture_nothing_is_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def fails(*_: object) -> None:
         raise RuntimeError("no picture")
@@ -90,5 +110,7 @@ def test_the_file_may_be_called_output_as_elsewhere(
     monkeypatch.chdir(tmp_path)
     words = ["signal", "step", "--height", "1", "--length", "1"]
     assert main([*words, "-o", "a.csv"]) == main([*words, "--output", "b.csv"]) == 0
-    assert (tmp_path / "a.csv").read_text() == (tmp_path / "b.csv").read_text()
+    first, second = (read_signal(tmp_path / name, "test") for name in ("a.csv", "b.csv"))
+    np.testing.assert_array_equal(first.starts, second.starts)
+    np.testing.assert_array_equal(first.cubics, second.cubics)
     refused([*words, "--output", "folder"], capsys, "name the file to write, -o FILE.csv")

@@ -26,7 +26,8 @@ def test_text_names_what_does_not_hold() -> None:
 
 
 def test_page_and_data() -> None:
-    html = page(Checked((REPORT,)), [], "")
+    html = page(Checked((REPORT,)), [], "pysim check-fmu a.fmu")
+    assert "pysim check-fmu a.fmu" in html
     assert "A&lt;b&gt;" in html
     assert 'class="fail">fails' in html
     (one,) = data(Checked((REPORT,)))

@@ -10,8 +10,18 @@ from pathlib import Path
 
 import pytest
 
+from pysim.identify.greybox import Tried
 from pysim.present import progress
-from pysim.present.progress import EventFile, ProgressBar, Unfolding, Working, announce_compilation, block, showing
+from pysim.present.progress import (
+    EventFile,
+    ProgressBar,
+    Searching,
+    Unfolding,
+    Working,
+    announce_compilation,
+    block,
+    showing,
+)
 from pysim.simulate import build_kernel, kernel_is_built
 from pysim.simulate.kernel import build
 from pysim.types import ProgressEvent
@@ -44,7 +54,24 @@ def test_what_lasts_is_said_again_and_again(monkeypatch: pytest.MonkeyPatch) -> 
     with Working("Building Toy"):
         assert stream.enough.wait(60)
     first, second = stream.getvalue().split("\n", 3)[:2]
-    assert (first, second) == ("Building Toy ...", "Building Toy ... 0 s")
+    assert (first, second) == ("Building Toy ... 0 s", "Building Toy ... 0 s")
+
+
+def test_a_search_tells_the_point_it_has_come_to_where_nothing_can_be_drawn_over(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    for name in ("_MOMENT", "_PAUSE"):
+        monkeypatch.setattr(progress, name, 0.001)
+    stream = Stream(3, live=False)
+    monkeypatch.setattr(sys, "stderr", stream)
+    with Searching("Fitting") as shown:
+        assert stream.enough.wait(60)  # before the first point, too
+        shown(Tried("start 1", 12, 0.5, 0.7))
+        stream.enough.clear()
+        assert stream.enough.wait(60)
+        stream.enough.clear()
+        assert stream.enough.wait(60)
+    assert "start 1: point 12, cost 0.5 ... " in stream.getvalue()
 
 
 def test_on_a_terminal_it_is_drawn_over_and_taken_away(monkeypatch: pytest.MonkeyPatch) -> None:

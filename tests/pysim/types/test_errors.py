@@ -4,7 +4,7 @@ import pickle
 
 import pytest
 
-from pysim.types import BadInput
+from pysim.types import BadInput, with_place
 
 
 def test_the_cure_stands_behind_the_semicolon() -> None:
@@ -20,3 +20,20 @@ def test_a_notebook_shows_the_sentence_alone() -> None:
     with pytest.raises(BadInput) as caught:
         raise BadInput("m is no number; give one")
     assert caught.value._render_traceback_() == ["\x1b[31mm is no number; give one\x1b[0m"]
+
+
+@pytest.mark.parametrize(
+    ("said", "shown"),
+    [
+        ("gain = 0; give another", "a.toml, line 3: gain = 0; give another"),
+        ("a.toml, line 7: gain = 0; give another", "a.toml, line 7: gain = 0; give another"),
+    ],
+)
+def test_a_place_is_said_once(said: str, shown: str) -> None:
+    def refuses() -> None:
+        raise BadInput(said)
+
+    with pytest.raises(BadInput) as caught:
+        with_place("a.toml, line 3", refuses)
+    assert str(caught.value) == shown
+    assert with_place("a.toml", lambda: 4) == 4
