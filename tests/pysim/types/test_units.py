@@ -11,7 +11,7 @@ TABLE = """
 1: - 1
 %:
 %/s:
-s: ms 0.001, us µs μs 0.000001, min 60, h 3600
+s: sec secs second seconds 1, ms msec 0.001, us µs μs 0.000001, ns 0.000000001, min minutes 60, h hours 3600
 Hz: kHz 1000
 1/s:
 rad: deg ° 0.017453292519943295
