@@ -42,8 +42,8 @@ _WORDS = {
         "depends on one alone."
     ),
     NoteCode.NOT_AT_REST: (
-        '{record} does not begin at rest: estimate its initial state (initial = "estimate"), or cut the log where the '
-        "plant still stands."
+        'The beginning of {record} does not fit a plant at rest. If the plant moved there, write initial = "estimate". '
+        "If it stood still, look at the first samples, and leave them out where they are wrong (trim)."
     ),
     NoteCode.USED_TO_CHOOSE: (
         "{records}: these logs chose between models, so their error is optimistic. Hold a log out to have one that "

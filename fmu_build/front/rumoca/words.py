@@ -39,6 +39,10 @@ _SAID = {
     r"unsupported Flat semantic owner `function loop domain`: `([^`]+)`": (
         rf"a loop in function \1 goes over something else than a range {_HERE}; write one, as in for i in 1:2:5 loop"
     ),
+    r"invalid unit for `([^`]+)`: (?:malformed unit expression: )?(.+?)(?: \(MLS.*)?$": (
+        r"the unit of \1 cannot be read: \2; write it with whole powers, as m3/(s.Pa) or kg/(m.s2), and take a root of "
+        r"a ratio: Q_n*sqrt(dp/dp_n) with Q_n in m3/s and dp_n in Pa"
+    ),
     r"unsupported model algorithm in canonical DAE": (
         f"an algorithm section can give only one continuous variable, a scalar, by assignments and if {_HERE}; write "
         "equations, an algorithm section for each variable, or a function"

@@ -46,6 +46,8 @@ PLAIN_WORDS: list[Row] = [
         ("Real x; Real y[2] = fill(time, 2); equation x = y*{1, 2, 3};", 1, "types or sizes do not agree"),
         ("Real y = sum(cross({1, 0, 0}, {0, 1, 0}))*time;", 1, r"write 1\.0 instead of 1"),
         ("Real y = delay(time, 1);", 2, r"write 1\.0 instead of 1"),
+        ('Real y = time;\nparameter Real K(unit = "m3/(s.Pa0.5)") = 1;', 3, r"unit of K .*Q_n\*sqrt\(dp/dp_n\)"),
+        ('parameter Real K(unit = "m3/s/Pa0.5") = 1;', 2, r"unit of K .*use parentheses; .*Q_n\*sqrt\(dp/dp_n\)"),
         ("type E = enumeration(a, b); E e = if time > 1 then E.a else E.b; Integer i; equation i = Integer(e);", 1,
          r"Integer\(e\) is not supported, compare e"),
         (f"input Boolean u; {DISCRETE} equation m = 1; when edge(u) then {COUNTS}", 1,
