@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from pysim.identify.data_check import DataCheck
 from pysim.io.counted import counted
 from pysim.io.dataset import Described, read_described
 from pysim.io.load import is_frame, load_logs
@@ -37,6 +38,7 @@ from pysim.io.prepare import (
 from pysim.io.write_dataset import write_dataset
 from pysim.nouns.data_check import Check, other_quantities
 from pysim.nouns.model import Model
+from pysim.nouns.one_cause import with_one_cause
 from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
 from pysim.types.kinds import mapping_of, names_of, number_of, path_of
@@ -189,14 +191,17 @@ class Data(Shown):
                 names of logs. With it, signs, units and columns are looked at too; of a `pysim.model` also whether it
                 has what is measured, and whether its inputs are driven.
         """
+        return Check(with_one_cause(*self._checked(model), lambda step: self.after(step)._checked(model)))
+
+    def _checked(self, model: Any) -> tuple[DataCheck, dict[str, Record]]:
+        """The check, and the model's answers to the logs."""
         from pysim.identify.data_check import check_dataset
 
-        if not isinstance(model, Model):
-            return Check(check_dataset(self.now, self._answers(model)))
-        wrong = other_quantities(self.now, model.compiled)
+        own = isinstance(model, Model)
+        wrong = other_quantities(self.now, model.compiled) if own else ()
         answers = {} if wrong else self._answers(model)
-        found = check_dataset(self.now, answers, model.compiled, tuple(model.values))
-        return Check(replace(found, beside_model=(*wrong, *found.beside_model)))
+        found = check_dataset(self.now, answers, *((model.compiled, tuple(model.values)) if own else ()))
+        return replace(found, beside_model=(*wrong, *found.beside_model)), answers
 
     def _answers(self, model: Any) -> dict[str, Record]:
         """Source of a log -> the model's answer to it."""

@@ -95,7 +95,7 @@ def _scaled(dataset: Dataset, name: str, scale: Scale) -> Dataset:
 
 @dataclass(frozen=True)
 class Rename:
-    """Give signals other names; a pair may swap.
+    """Give signals other names; a pair may swap theirs, and what these stand for in the model.
 
     Args:
         names: old -> new.
@@ -113,9 +113,11 @@ class Rename:
         if twice is not None:
             raise BadInput(f"two signals would be called {twice!r}; choose another name")
         signals = []
+        known = {signal.name: signal for signal in dataset.signals}
         for signal, name in zip(dataset.signals, new, strict=True):
-            variable = name if signal.variable == signal.name else signal.variable
-            quantity = name if signal.quantity == signal.name else signal.quantity
+            like = known.get(name, signal)  # who takes the name of another one stands for what that stood for
+            variable = name if like.variable == like.name else like.variable
+            quantity = name if like.quantity == like.name else like.quantity
             signals.append(replace(signal, name=name, variable=variable, quantity=quantity))
 
         def change(record: MeasuredRecord, log: Record) -> Iterator[MeasuredRecord]:

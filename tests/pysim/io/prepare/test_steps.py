@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -134,6 +135,11 @@ def test_two_signals_swap_their_names() -> None:
     data = Rename({"u": "y", "y": "u"}).apply(dataset(TIME, TIME, -TIME, command="u"))
     assert (data.signals[0].name, data.signals[0].variable, data.records[0].command) == ("y", "y", "y")
     np.testing.assert_array_equal(y_of(data)[1], TIME)
+    plain = dataset(TIME, TIME)
+    shown = {"u": "valve.u", "y": "cylinder.y"}
+    named = replace(plain, signals=tuple(replace(one, variable=shown[one.name]) for one in plain.signals))
+    swapped = Rename({"u": "y", "y": "u"}).apply(named)
+    assert {one.name: one.variable for one in swapped.signals} == shown  # else the swap would change nothing
     with pytest.raises(BadInput, match="two signals would be called 'y'"):
         Rename({"u": "y"}).apply(dataset(TIME, TIME))
 

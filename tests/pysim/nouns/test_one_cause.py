@@ -1,0 +1,84 @@
+"""What is wrong with an input or with two names is found as that, and not as turned signs of all that follows it."""
+
+import numpy as np
+import pytest
+
+from pysim.identify.data_check import FindingCode
+from pysim.nouns.data import Data, load
+from pysim.types import MeasuredRecord, Record
+
+TIME = np.arange(1500) / 500
+RNG = np.random.default_rng(3)
+COMMAND = 0.5 * np.convolve(RNG.normal(size=TIME.size + 49), np.ones(50) / 7, "valid")
+NOISE = RNG.normal(size=(TIME.size, 4))
+OUTPUTS = ("x", "v", "pA", "pB")
+UNITS = {"u": "1", "x": "m", "v": "m/s", "pA": "bar", "pB": "bar"}
+
+
+class Cylinder:
+    """Pressures at the ports go opposite ways, each about its own level.
+
+    Args:
+        level: of the second port less the first, Pa.
+        follows: whether the simulated pressures move as the measured ones do.
+    """
+
+    def __init__(self, level: float, *, follows: bool = True) -> None:
+        self.level, self.follows = level, follows
+
+    def simulate(self, log: MeasuredRecord) -> Record:
+        assert isinstance(log.data, Record)
+        v = 0.2 * np.convolve(log.data["u"], np.exp(-np.arange(200) / 20) / 20)[: TIME.size]
+        swing = 4e5 * (v if self.follows else np.roll(v, 400))
+        columns = [np.cumsum(v) / 500, v, 5e6 + swing, 5e6 + self.level - 0.6 * swing]
+        return Record(TIME, np.column_stack(columns), OUTPUTS, ("m", "m/s", "Pa", "Pa"))
+
+
+def logged(plant: Cylinder, turned: str = "", swapped: bool = False) -> Data:
+    """A log of the plant."""
+    drive = load({"t": TIME, "u [1]": COMMAND, "x [m]": COMMAND}, inputs="u", outputs="x", time="t")["log"]
+    answer = plant.simulate(drive)
+    columns = {"u": COMMAND} | {name: answer[name] for name in OUTPUTS}
+    columns |= {name: columns[name] + 0.01 * np.std(columns[name]) * NOISE[:, k] for k, name in enumerate(OUTPUTS)}
+    columns |= {"pA": 1e-5 * columns["pA"], "pB": 1e-5 * columns["pB"]}
+    if swapped:
+        columns |= {"pA": columns["pB"], "pB": columns["pA"]}
+    for name in turned.split():
+        columns[name] = -columns[name]
+    frame = {"t": TIME} | {f"{name} [{UNITS[name]}]": column for name, column in columns.items()}
+    return load(frame, inputs="u", outputs=list(OUTPUTS), time="t")
+
+
+SWAP = 'data = data.rename({"pA": "pB", "pB": "pA"})'
+
+
+@pytest.mark.parametrize(
+    ("level", "turned", "swapped", "lines"),
+    [
+        (3e6, "", False, []),
+        (3e6, "u", False, ['data = data.flip("u")']),
+        (3e6, "", True, [SWAP]),
+        (0.0, "", True, [SWAP]),  # told by their signs alone
+        (3e6, "x v", False, ['data = data.flip("x")', 'data = data.flip("v")']),  # as the pressures do follow
+        (3e6, "pA pB", False, ['data = data.flip("pA")', 'data = data.flip("pB")']),
+        (3e6, "x", False, ['data = data.flip("x")']),
+        (3e6, "x v pA pB", False, [f'data = data.flip("{name}")' for name in OUTPUTS]),
+    ],
+)
+def test_the_cause_is_named_once(level: float, turned: str, swapped: bool, lines: list[str]) -> None:
+    data = logged(Cylinder(level), turned, swapped)
+    check = data.check(Cylinder(level))
+    assert list(check.lines) == lines
+    assert len(check.findings) == len(lines)
+    for found in check.findings:
+        data = data.after(*found.cure)
+    assert data.check(Cylinder(level)).ok
+    assert all(step_name in repr(check) for step_name in lines)
+
+
+def test_levels_tell_a_swap_though_the_model_does_not_follow() -> None:
+    poor = Cylinder(3e6, follows=False)
+    assert logged(Cylinder(3e6)).check(poor).ok
+    (found,) = logged(Cylinder(3e6), swapped=True).check(poor).findings
+    assert found.code is FindingCode.SWAPPED
+    assert {found.values["signal"], found.values["other"]} == {"pA", "pB"}
