@@ -10,7 +10,6 @@ from pathlib import Path
 from typing import Any, Protocol, cast
 
 from pysim.present.render import Drawing, Picture, draw
-from pysim.types import BadInput
 
 # The folder of an answer: its page, the names of our files, a line each, and what a stopped diagnosis goes on from.
 PAGE, MARKER, CHECKPOINT = "report.html", ".pysim-answer", "checkpoint.jsonl"
@@ -132,6 +131,8 @@ def joining(folder: Path) -> Iterator[Path]:
     Raises:
         BadInput: another file of the user is there, or the folder cannot be written.
     """
+    from pysim.types import BadInput
+
     new, ours = folder / NEW, listed(folder)
     shutil.rmtree(new, ignore_errors=True)  # of a run that was killed
     with no_empty_folders([folder]):

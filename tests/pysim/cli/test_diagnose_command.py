@@ -180,7 +180,7 @@ def test_data_that_cannot_carry_it_are_refused(
         records.append(replace(record, data=replace(log, time=log.time[:cut], values=values)))
     write_dataset(tmp_path / "data", replace(good, records=tuple(records)))
     refused(["diagnose", str(tmp_path / "data"), *toy, "--output", str(tmp_path / "out")], capsys, *named)
-    assert list((tmp_path / "out").iterdir()) == []
+    assert not (tmp_path / "out").exists()
 
 
 def test_a_class_that_does_not_compile_is_refused(
