@@ -12,10 +12,10 @@ from pysim.identify.data_check.clipping import plateaus
 from pysim.identify.data_check.clock import Clock, clock
 from pysim.identify.data_check.finding import Finding, FindingCode, finding
 from pysim.identify.data_check.folding import share_near_nyquist
-from pysim.identify.data_check.gaps import fill_of, whole_rows
+from pysim.identify.data_check.gaps import whole_rows
 from pysim.identify.data_check.swing import swing
 from pysim.identify.logged import logged_wave
-from pysim.io.prepare import DropOutliers, Exclude, FillGaps, Resample, outliers, short_name
+from pysim.io.prepare import DropOutliers, Exclude, FillGaps, Resample, fill_of, outliers, short_name
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Model, Record
 from pysim.types.record_kind import CHIRP, KINDS
 

@@ -17,9 +17,9 @@ class FindingCode(Enum):
     NOT_DRIVEN = "not_driven"  # signal, value, unit: an input of the model that no signal drives
     EMPTY = "empty"  # signal, count, start (s): cells without a number
     GAP = "gap"  # count, start, length (s): samples were lost
-    QUANTITY = "quantity"  # signal, unit, wanted, factor: the model counts it in another quantity
-    SWAPPED = "swapped"  # signal, other, correlation: each follows the model's answer for the other one
-    SIGN = "sign"  # signal, correlation: it moves against the model's answer
+    QUANTITY = "quantity"  # signal, unit, wanted, maybe factor: the model counts it in another quantity
+    SWAPPED = "swapped"  # signal, other, maybe correlation: each follows the model's answer for the other one
+    SIGN = "sign"  # signal, correlation: it moves against the model's answer; or signal (input), outputs
     FACTOR = "factor"  # signal, factor: it is so many times the model's answer
     CLIPPED = "clipped"  # signal, count, low, high, unit: it stands at the end of its range
     OUTLIERS = "outliers"  # signal, count, start (s): single samples far off their neighbours

@@ -5,7 +5,7 @@ What is missing in a log stands as not-a-number in its column until a step fills
 
 from pysim.io.prepare.cut import Exclude, HoldOut, Split, Trim
 from pysim.io.prepare.filters import LowPass, Resample
-from pysim.io.prepare.gaps import FillGaps, refuse_missing_samples
+from pysim.io.prepare.gaps import FillGaps, fill_of, refuse_missing_samples
 from pysim.io.prepare.log_names import logs_called, short_name
 from pysim.io.prepare.outliers import DropOutliers, outliers
 from pysim.io.prepare.signals import Delay, Detrend, Flip, Rename, Scaled
@@ -30,6 +30,7 @@ __all__ = [
     "Step",
     "Trim",
     "call",
+    "fill_of",
     "is_off",
     "logs_called",
     "outliers",
