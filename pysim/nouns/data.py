@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from pysim.identify.data_check import DataCheck
+from pysim.identify.data_check import DataCheck, check_dataset, with_one_cause
 from pysim.io.counted import counted
 from pysim.io.dataset import Described, read_described
 from pysim.io.load import is_frame, load_logs
@@ -38,7 +38,6 @@ from pysim.io.prepare import (
 from pysim.io.write_dataset import write_dataset
 from pysim.nouns.data_check import Check, other_quantities
 from pysim.nouns.model import Model
-from pysim.nouns.one_cause import with_one_cause
 from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
 from pysim.types.kinds import mapping_of, names_of, number_of, path_of
@@ -195,8 +194,6 @@ class Data(Shown):
 
     def _checked(self, model: Any) -> tuple[DataCheck, dict[str, Record]]:
         """The check, and the model's answers to the logs."""
-        from pysim.identify.data_check import check_dataset
-
         own = isinstance(model, Model)
         wrong = other_quantities(self.now, model.compiled) if own else ()
         answers = {} if wrong else self._answers(model)

@@ -6,6 +6,7 @@ from pysim.identify.data_check.clock import Clock, clock
 from pysim.identify.data_check.finding import Finding, FindingCode
 from pysim.identify.data_check.folding import share_near_nyquist
 from pysim.identify.data_check.gaps import whole_rows
+from pysim.identify.data_check.one_cause import with_one_cause
 from pysim.identify.data_check.swing import Swing, swing
 
 __all__ = [
@@ -21,4 +22,5 @@ __all__ = [
     "share_near_nyquist",
     "swing",
     "whole_rows",
+    "with_one_cause",
 ]

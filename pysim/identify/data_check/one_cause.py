@@ -9,13 +9,12 @@ from typing import Any
 
 import numpy as np
 
-from pysim.identify.data_check import DataCheck, Finding, FindingCode
-from pysim.identify.data_check.finding import finding
+from pysim.identify.data_check.check import DataCheck
+from pysim.identify.data_check.finding import Finding, FindingCode, finding
 from pysim.io.prepare import Flip, Rename, Step
 from pysim.types import Dataset, Record
 
 _AS_GOOD = 2.0  # misfit with the step over the one with all these outputs turned, up to which it is the likelier cause
-
 _LEVEL = 0.1  # largest misfit of two signals with their names swapped, over the one without, that shows the swap
 
 Checked = tuple[DataCheck, Mapping[str, Record]]
