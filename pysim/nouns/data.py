@@ -14,6 +14,7 @@ from pysim.io.counted import counted
 from pysim.io.dataset import Described, read_described
 from pysim.io.load import is_frame, load_logs
 from pysim.io.load.load import Names
+from pysim.io.load.table import Doubt
 from pysim.io.prepare import (
     Delay,
     Detrend,
@@ -298,7 +299,7 @@ class Data(Shown):
             else:
                 size, span, empty = record.data.frequency.size, "-", 0
             cells = [counted(empty, "empty cell")] if empty else []
-            doubts = [s for s in self.remarks.get(record.source, ()) if s.startswith(("date", "uneven", "unit"))]
+            doubts = [s for s in self.remarks.get(record.source, ()) if isinstance(s, Doubt)]
             rows.append((name, record.use, str(size), span, "; ".join([*cells, *doubts])))
         return Table.of(("log", "use", "samples", "seconds", "warnings"), rows, key="log")
 

@@ -72,7 +72,7 @@ def _swaps(dataset: Dataset, outputs: Iterable[str]) -> list[Rename]:
 
 def _cause(step: Flip | Rename, source: str, outputs: tuple[str, ...]) -> Finding:
     if isinstance(step, Flip):
-        return finding(FindingCode.SIGN, source, step, signal=step.signals[0], outputs=", ".join(outputs))
+        return finding(FindingCode.TURNED_INPUT, source, step, signal=step.signals[0], outputs=", ".join(outputs))
     one, other = step.names
     return finding(FindingCode.SWAPPED, source, step, signal=one, other=other)
 

@@ -165,8 +165,8 @@ class TimeLog:
 
 def time_logs(context: Context, records: Sequence[tuple[int, MeasuredRecord]]) -> list[TimeLog]:
     """The observations of logs over time, given as index and record, with the priors of their initial states."""
-    logs = [_log(context, record, index) for index, record in records]
     known = [_initial(context, record) for _, record in records]
+    logs = [_log(context, record, index, one) for (index, record), one in zip(records, known, strict=True)]
     free = [i for i, one in enumerate(known) if one not in ("model", "rest")]
     ranges = _state_ranges(context, [logs[i].run.experiment for i in free])
     for i, spread in zip(free, ranges, strict=True):
@@ -185,11 +185,11 @@ def _initial(context: Context, record: MeasuredRecord) -> str:
     return record.initial or ("estimate" if usual == "near rest" and context.integrates else usual)
 
 
-def _log(context: Context, record: MeasuredRecord, index: int) -> TimeLog:
+def _log(context: Context, record: MeasuredRecord, index: int, initial: str) -> TimeLog:
     columns, outputs = context.columns(record)
     data = record.data
     assert isinstance(data, Record)
-    measured, start, initial = kept_columns(data, outputs), float(data.time[0]), _initial(context, record)
+    measured, start = kept_columns(data, outputs), float(data.time[0])
     rest = None if initial == "model" or (initial == "estimate" and context.integrates) else context.treatment.rest
     later = 0.0 if record.begin is None else record.begin - start
     commands, begin = {}, start

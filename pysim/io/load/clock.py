@@ -13,7 +13,7 @@ from pysim.io.columns import standing
 from pysim.io.counted import counted
 from pysim.io.load.headings import heading_of, name_and_unit, unit_of
 from pysim.io.load.moments import DATE_ORDERS, moments_of, seconds_of_day
-from pysim.io.load.table import RawTable, number_of
+from pysim.io.load.table import Doubt, RawTable, number_of
 from pysim.io.units import unit_cure
 from pysim.types import SECONDS, UNITS, BadInput, sampling
 
@@ -185,4 +185,4 @@ def _evenness(time: Array) -> list[str]:
         return []
     found = sampling(time)
     spread = float(np.std(np.delete(np.diff(time), found.gaps))) / found.step
-    return [f"uneven clock: its intervals vary by {100 * spread:.0f} percent"] if spread > _UNEVEN else []
+    return [Doubt(f"uneven clock: its intervals vary by {100 * spread:.0f} percent")] if spread > _UNEVEN else []

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from difflib import get_close_matches
 
 from pysim.io.load.foreign_units import known_unit
-from pysim.io.load.table import RawTable
+from pysim.io.load.table import Doubt, RawTable
 from pysim.types import BadInput
 
 _BRACKETS = re.compile(r"\s*(?P<name>[^\[\](){}]+?)\s*(?:\[(?P<a>[^\]]*)\]|\((?P<b>[^)]*)\)|\{(?P<c>[^}]*)\})\s*")
@@ -71,5 +71,5 @@ def unit_of(table: RawTable, heading: str, name: str, units: Mapping[str, str]) 
     written = table.units.get(heading) or written
     given = next((units[one] for one in (name, heading, short) if one in units), "")
     if given and written and given != written:
-        return given, f"unit of {name}: {given} as you say, though {table.place} says {written}"
+        return given, Doubt(f"unit of {name}: {given} as you say, though {table.place} says {written}")
     return given or written, ""

@@ -13,7 +13,7 @@ from zoneinfo import ZoneInfo
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.io.load.table import number_of
+from pysim.io.load.table import Doubt, number_of
 from pysim.types import BadInput
 
 DATE_ORDERS = ("year/month/day", "day/month/year", "month/day/year")
@@ -148,11 +148,12 @@ def _order(found: Sequence[re.Match[str]], where: str) -> tuple[str, str, bool]:
     best = [order for order, misfit in zip(orders, misfits, strict=True) if misfit == min(misfits)]
     if len(best) == 1 or dots:
         one_fits = sum(misfit[0] == min(misfits)[0] for misfit in misfits) == 1
-        return best[0], "" if one_fits else f"date: {text!r} is taken as {best[0]}", True
+        return best[0], "" if one_fits else Doubt(f"date: {text!r} is taken as {best[0]}"), True
     asked, cure = " or ".join(best), f'Say it in units: "{best[-1]}" as the unit of that column'
     if len(days) > 1:
         raise BadInput(f"{where}: is {text!r} {asked}? {cure}")
-    return best[0], f"date: is {text!r} {asked}? Until that is known, so is when the log began. {cure}", False
+    remark = Doubt(f"date: is {text!r} {asked}? Until that is known, so is when the log began. {cure}")
+    return best[0], remark, False
 
 
 def _misfit(days: Sequence[tuple[str, ...]], order: str) -> tuple[int, bool, bool]:

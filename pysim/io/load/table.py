@@ -15,6 +15,12 @@ Array = NDArray[np.float64]
 _WORDS = {"", "nan", "null", "none", "na", "n/a", "#n/a", "-", "--"}  # how an empty cell is written
 
 
+class Doubt(str):
+    """A remark that the user should look at before anything is fitted."""
+
+    __slots__ = ()
+
+
 @dataclass(frozen=True)
 class RawTable:
     """One log.

@@ -22,6 +22,9 @@ _WORDS: Mapping[FindingCode, str] = {
     FindingCode.QUANTITY: "{signal} is in {unit}, and the model counts it in {wanted}; {scaled}",
     FindingCode.SWAPPED: "{signal} and {other} seem to be swapped: each follows the model's answer for the other",
     FindingCode.SIGN: "{signal} moves against the model's answer (correlation {correlation:.2f}): a turned sign?",
+    FindingCode.TURNED_INPUT: (
+        "{outputs} move against the model's answer, and with it if {signal} is turned: its sign?"
+    ),
     FindingCode.FACTOR: "{signal} is about {factor:.4g} times the model's answer: another unit?",
     FindingCode.CLIPPED: (
         "{samples} of {signal} at its smallest or largest value ({low:g}, {high:g} {unit}): clipped?"
@@ -53,7 +56,6 @@ _WORDS: Mapping[FindingCode, str] = {
 _MEASURED = "by the model's answer one {unit} is {factor:.4g} {wanted}, and the sensor's data sheet knows better"
 _KNOWN = "100 % are 1"
 _OPEN = 'put how many {to} one {unit} is for the dots: data = data.scale("{signal}", ..., unit="{to}", of="{unit}")'
-_TURNED_INPUT = "{outputs} move against the model's answer, and with it if {signal} is turned: its sign?"
 _SHARES = ("share", "jitter")  # shown in percent
 
 
@@ -68,8 +70,7 @@ def sentence(found: Finding) -> str:
     if found.code is FindingCode.GAP:
         count = int(words["count"])
         words["gaps"] = f"{count} gaps in time, the longest" if count > 1 else "a gap in time,"
-    text = _TURNED_INPUT if "outputs" in words else _WORDS[found.code]
-    return text.format(**words | {key: 100 * float(words[key]) for key in _SHARES if key in words})
+    return _WORDS[found.code].format(**words | {key: 100 * float(words[key]) for key in _SHARES if key in words})
 
 
 def lines(findings: Iterable[Finding]) -> tuple[str, ...]:
