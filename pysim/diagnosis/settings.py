@@ -59,7 +59,7 @@ class Settings:
         source="chosen: with 4 or fewer, the F distribution has no finite variance",
     )  # fmt: skip
     held_out: float = setting(
-        1.05, unit="1", meaning="error on validation logs over error on fitted logs, above which more is missing",
+        1.05, unit="1", meaning="error of a log over that of the others, above which more is missing",
         source="measured: complete models with coloured noise",
     )  # fmt: skip
     fine: float = setting(

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
+from scipy.stats import f
 
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import sensor_name, switches
@@ -13,7 +14,7 @@ from pysim.diagnosis.learn.learn import Learning
 from pysim.diagnosis.left import Follows
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.search import Compared, Found, Table
-from pysim.diagnosis.session import Session
+from pysim.diagnosis.session import TEST, Session
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.identify.greybox.effective_size import inflation
@@ -67,34 +68,34 @@ def what_is_left(found: Found, follows: Follows | None, tone: float | None, last
 def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorStep, settings: Settings) -> bool:
     """Whether only noise is left.
 
-    That is: no candidate is significant, the model's signals do not predict the residual, it has no tone, and the error
-    on validation logs exceeds that on fitted logs by a few percent at most, besides the scatter of the two.
+    That is: no candidate is significant, the model's signals do not predict the residual, it has no tone, and no log
+    that was fitted or used to choose leaves more than the others.
     """
     if found.undecidable or found.more or left.tone is not None:
         return False
-    if follows is not None and follows.share > settings.small and follows.t > settings.follows_t:
+    predicted = follows is not None and follows.share > settings.small and follows.t > settings.follows_t
+    if predicted or stands_out([record for record in last.records if record.use != TEST], settings):
         return False
-    if left.fit is not None and left.validate is not None:
-        scatter = math.hypot(*(_scatter(last.records, use) for use in ("fit", "validate")))
-        if left.validate > settings.held_out * max(left.fit, 1.0) * math.exp(settings.follows_t * scatter):
-            return False
     if found.floors.within(found.final, settings.near):  # the only sign of misfit if there is no regression
         return True
     return follows is not None and not hardly_explains(last, settings)
 
 
-def _scatter(records: Sequence[RecordFit], use: str) -> float:
-    """Standard deviation of the logarithm of the root mean square residual of all records of one use.
+def stands_out(records: Sequence[RecordFit], settings: Settings) -> bool:
+    """Whether a signal's residual is larger in some log than in the others: a sensor's noise is the same in all.
 
-    Squares of n Gaussian residuals with autocorrelations rho are worth n / sum(rho^2) independent ones (Bartlett 1946).
+    Two variances are compared by their F test. Squares of n Gaussian residuals with autocorrelations rho are worth
+    n / sum(rho^2) independent ones (Bartlett 1946).
     """
-    own = [record.residual.values for record in records if record.use == use]
-    columns = [rest[:, j : j + 1] for rest in own for j in range(rest.shape[1])]
-    squares = np.array([float(np.sum(column**2)) for column in columns])
-    if not squares.sum() > 0:
-        return 0.0
-    worth = np.array([column.size / inflation([column], [column]) for column in columns])
-    return math.sqrt(float(np.sum(squares**2 / worth)) / 2) / float(squares.sum())
+    columns = [(f"{one.dataset}/{k}", one.residual[k][:, None]) for one in records for k in one.measured.names]
+    names = np.array([name for name, _ in columns])
+    others = (names[:, None] == names) & ~np.eye(len(columns), dtype=bool)
+    variance = np.array([np.mean(column**2) for _, column in columns])
+    worth = np.array([column.size / inflation([column], [column]) for _, column in columns])
+    rest = others @ worth  # 0 where no other log has the signal: no limit then
+    ratio = variance / np.maximum(others @ (worth * variance) / np.maximum(rest, 1.0), 1.0)
+    chance = settings.false_alarm / max(len(columns), 1)
+    return bool(np.any(ratio > settings.held_out**2 * f.isf(chance, worth, rest)))
 
 
 def hardly_explains(last: ErrorStep, settings: Settings) -> bool:

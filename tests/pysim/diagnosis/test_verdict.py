@@ -1,36 +1,49 @@
-"""Whether a model is complete: what chance makes of the error of short and of coloured logs."""
+"""Whether a model is complete: a log that leaves more than the others, and what chance makes of them."""
 
-import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from pysim.diagnosis.verdict import _scatter
+from pysim.diagnosis.settings import Settings
+from pysim.diagnosis.verdict import stands_out
 from pysim.types import Record, RecordFit
+
+NOISE = 0.5
 
 
 def log(residual: np.ndarray, use: str = "fit") -> RecordFit:
+    """A log whose residual has this size over its noise."""
     time = 0.01 * np.arange(residual.size)
     signal = np.sin(time)
-    columns = [Record(time, values[:, None], ("x",), ("m",)) for values in (signal + 0.5 * residual, signal)]
-    return RecordFit("toy", "log.txt", "other", use, *columns, (0.5,), index=0)
+    columns = [Record(time, values[:, None], ("x",), ("m",)) for values in (signal + NOISE * residual, signal)]
+    return RecordFit("toy", "log.txt", "other", use, *columns, (NOISE,), index=0)
 
 
 @pytest.mark.parametrize("memory", [0.0, 0.9])
-def test_the_scatter_of_an_error_is_that_of_its_repetitions(memory: float) -> None:
-    """White: 1/sqrt(2 n); with autocorrelations memory^k as many times more as the sum of their squares says."""
-    rng, n = np.random.default_rng(1), 2000
-    rests = [np.asarray(lfilter([1.0], [1.0, -memory], rng.standard_normal(n + 200))[200:]) for _ in range(400)]
-    spread = float(np.std([0.5 * math.log(np.mean(rest**2)) for rest in rests]))
-    expected = math.sqrt((1 + memory**2) / (1 - memory**2) / (2 * n))
-    assert spread == pytest.approx(expected, rel=0.1)
-    found = float(np.mean([_scatter([log(rest), log(rest, "validate")], "fit") for rest in rests[:20]]))
-    assert found == pytest.approx(expected, rel=0.1)
+def test_of_equal_logs_chance_makes_one_stand_out_as_often_as_was_allowed(memory: float) -> None:
+    """Noise above what is stated, with autocorrelations memory^k; one in ten, three standard deviations either way."""
+    rng, settings, times = np.random.default_rng(1), replace(Settings(), false_alarm=0.1, held_out=1.0), 400
+    seen = 0
+    for _ in range(times):
+        rests = lfilter([2.0], [1.0, -memory], rng.standard_normal((4, 1200)), axis=1)[:, 200:]
+        seen += stands_out([log(np.asarray(rest)) for rest in rests], settings)
+    assert seen / times == pytest.approx(0.1, abs=3 * np.sqrt(0.1 * 0.9 / times))
 
 
-def test_logs_together_scatter_less_and_no_log_does_not() -> None:
+@pytest.mark.parametrize("use", ["fit", "validate"])
+def test_one_log_of_many_that_leaves_more_stands_out(use: str) -> None:
+    """Half as much again in 300 samples: 8 standard deviations; the two uses together differ by a twentieth only."""
     rng = np.random.default_rng(2)
-    logs = [log(rng.standard_normal(1000)) for _ in range(4)]
-    assert _scatter(logs, "fit") == pytest.approx(_scatter(logs[:1], "fit") / 2, rel=0.1)
-    assert _scatter(logs, "validate") == 0.0
+    logs = [log(rng.standard_normal(1000), which) for which in 4 * ("fit", "validate")]
+    assert not stands_out(logs, Settings())
+    assert stands_out([*logs, log(1.5 * rng.standard_normal(300), use)], Settings())
+
+
+def test_a_log_alone_and_what_noise_hides_do_not_stand_out() -> None:
+    rng = np.random.default_rng(3)
+    large, small = log(4.0 * rng.standard_normal(1000)), log(0.2 * rng.standard_normal(1000))
+    assert not stands_out([large], Settings())
+    assert not stands_out([small, log(0.9 * rng.standard_normal(1000))], Settings())
+    assert stands_out([large, small], Settings())
