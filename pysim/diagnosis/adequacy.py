@@ -28,7 +28,7 @@ def shortcomings(dataset: Dataset, free: Sequence[str], initial: str = "near res
     if count < FEWEST * len(free):
         raise BadInput(
             f"data set {dataset.name!r} has {count} samples to fit for {len(free)} free parameters; log at least "
-            f"{FEWEST * len(free)}, fit more of them, or name fewer parameters with --free"
+            f"{FEWEST * len(free)}, fit more of them, or free fewer parameters"
         )
     notes = list(_still(dataset, fitted, initial))
     if not any(record.use != "fit" for record in dataset.records):

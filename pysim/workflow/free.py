@@ -26,14 +26,14 @@ def free_parameters(model: Model, named: Sequence[str], bounds: Bounds, values: 
     own = suggested(model)
     if not own and not bounds:
         raise BadInput(
-            f"{model.label} gives no parameter min, max and nominal; name those to refit, and their bounds, as "
+            f"{model.label} gives no parameter min, max and nominal; name those to refit, and their bounds: "
             f"{_example(model)}"
         )
     free = tuple(name for name in dict.fromkeys([*own, *bounds]) if name not in values or name in bounds)
     if not free:
         raise BadInput(
-            f"every parameter that {model.label} gives bounds is set, so none is left to refit; name with --free those "
-            "to refit from there"
+            f"every parameter that {model.label} gives bounds is set, so none is left to refit; free those to refit "
+            "from there"
         )
     return free
 
@@ -56,9 +56,10 @@ def begun_at(model: Model, values: Mapping[str, float]) -> Model:
 
 
 def _example(model: Model) -> str:
-    """The options, for a parameter of the model."""
+    """What frees a parameter of the model, in a terminal and in Python."""
+    name, low, high = "NAME", "LOW", "HIGH"
     for v in model.variables:
         if v.causality == "parameter" and v.type in ("Real", "Float64") and v.start and math.isfinite(v.start):
-            low, high = sorted((0.1 * v.start, 10 * v.start))
-            return f"--free {v.name} --bounds {v.name}={low:g}:{high:g}"
-    return "--free NAME --bounds NAME=LOW:HIGH"
+            name, (low, high) = v.name, (f"{end:g}" for end in sorted((0.1 * v.start, 10 * v.start)))
+            break
+    return f"--free {name} --bounds {name}={low}:{high}, in Python .free({name}=({low}, {high}))"

@@ -61,7 +61,7 @@ class Effort:
         if self.starts < 0:
             raise BadInput(f"fit: starts must not be negative, got {self.starts}")
         if self.resume and self.log is None:
-            raise BadInput("fit: nothing to resume without a log; give the --output of the fit that was stopped")
+            raise BadInput("fit: nothing to resume without a log; give the folder of the fit that was stopped")
 
 
 def fit(

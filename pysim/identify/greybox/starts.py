@@ -45,6 +45,6 @@ def _drawn(space: ParameterSpace, count: int, seed: int | None) -> dict[str, Arr
     lower, upper = space.bounds()
     for key, low, high in zip(space.keys, lower, upper, strict=True):
         if not np.isfinite(high - low):
-            raise BadInput(f"fit: {key} has no bounds to draw starts between; give lower and upper, or no --starts")
+            raise BadInput(f"fit: {key} has no bounds to draw starts between; give lower and upper, or draw no starts")
     points = qmc.LatinHypercube(space.size, rng=np.random.default_rng(seed)).random(count)
     return {f"drawn-{i}": row for i, row in enumerate(lower + points * (upper - lower), start=1)}

@@ -61,7 +61,7 @@ def test_what_a_fit_found_is_where_the_refit_begins(rubbing: Path, toy: list[str
 def test_what_is_set_is_refitted_where_it_is_named_or_has_bounds() -> None:
     assert free_parameters(base(), ["d", "m"], {}, {"m": 1.0}) == ("d", "m")
     assert free_parameters(base(), [], {"m": (1.0, 2.0)}, {"m": 1.0, "d": 1.0}) == ("m", "k")
-    with pytest.raises(BadInput, match="none is left to refit; name with --free those to refit from there"):
+    with pytest.raises(BadInput, match="none is left to refit; free those to refit from there"):
         free_parameters(base(), [], {}, {"m": 1.0, "d": 1.0, "k": 1.0})
 
 
