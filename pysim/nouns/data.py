@@ -330,17 +330,24 @@ def load(
     Raises:
         BadInput: what cannot be read, is not there, or must be asked for, with its place and the cure.
     """
+    columns: dict[str, Any] = {
+        what: own if isinstance(own, Mapping | None) else names_of(own, what)
+        for what, own in (("inputs", inputs), ("outputs", outputs))
+    }
     named = {"units": units, "noise": noise, "variables": variables, "hold": hold}
-    given = {"time": time, **{what: mapping_of(own, what) for what, own in named.items()}}
+    given: dict[str, Any] = {"time": time, **{what: mapping_of(own, what) for what, own in named.items()}}
+    given["noise"] = {name: number_of(sd, "noise") for name, sd in given["noise"].items()}
     if _describes_itself(source):
-        extra = [name for name, value in {"inputs": inputs, "outputs": outputs, **given}.items() if value]
+        extra = [name for name, value in {**columns, **given}.items() if value]
         if extra:
             raise BadInput(f"{source} has a dataset.toml that says what its logs are; leave out {', '.join(extra)}")
         return Data.of(read_described(source))
-    if not inputs or not outputs:
-        what = "inputs" if not inputs else "outputs"
-        raise BadInput(f'which columns are {what}? Name them: {what}=["..."], as the headings have them', argument=what)
-    found = load_logs(source, inputs=inputs, outputs=outputs, **given)  # type: ignore[arg-type]
+    for what, own in columns.items():
+        if not own:
+            raise BadInput(
+                f'which columns are {what}? Name them: {what}=["..."], as the headings have them', argument=what
+            )
+    found = load_logs(source, **columns, **given)
     return Data(found.dataset, found.dataset, (), found.units, found.units, found.remarks)
 
 

@@ -17,7 +17,7 @@ from pysim.nouns.table import Shown, Table
 from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent
 from pysim.types import Fit as Found
-from pysim.types.kinds import names_of, path_of
+from pysim.types.kinds import names_of, number_of, path_of
 
 if TYPE_CHECKING:
     from pysim.identify.greybox import Problem, Profile, Tried
@@ -67,7 +67,7 @@ def fit(
         def heard(tried: Tried) -> None:
             say(ProgressEvent(f"{tried.search}: point {tried.tried}, cost {tried.best:.6g}"))
 
-        effort = Effort(starts, seed, log=log, resume=log is not None)
+        effort = Effort(int(number_of(starts, "starts")), seed, log=log, resume=log is not None)
         return Fit(fitted(problem, effort=effort, progress=heard), model, dataset, problem, initial, outputs)
 
 

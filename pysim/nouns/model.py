@@ -373,7 +373,7 @@ class Model(Shown):
             dt: s between two rows; a 500th of the run by default, and of a log its own.
             record: variables; all outputs by default, else the states.
             check: False gives back what a run that failed has reached, in place of an error.
-            initial: of a log: "rest", "estimate", or state -> value, `{}` for the model's own start; None as above.
+            initial: state -> value, `{}` for the model's own start; of a log also "rest" or "estimate"; None as above.
             inputs: input = number, pairs (s, value), a row of values, a pandas column, or a function of time.
         Raises:
             BadInput: an unknown name, or an input that is no signal.
@@ -399,6 +399,10 @@ class Model(Shown):
                     f"simulate: a {type(what).__name__} is neither a time in s nor one log; write simulate(2.0), or "
                     'simulate(data["run3"])', argument="what",
                 )  # fmt: skip
+            if isinstance(initial, str):
+                raise BadInput(
+                    f"simulate: no log is there to begin at {initial!r}; write state = value", argument="initial"
+                )
             stop = float(what if what is not None else model.stop_time or 1.0)
             dt = None if dt is None else number_of(dt, "dt")
             if not 0 < stop < np.inf or not 0 < (dt or stop) <= stop:
@@ -408,7 +412,8 @@ class Model(Shown):
             times, start = np.linspace(0.0, stop, max(2, round(stop / (dt or stop / _ROWS)) + 1)), 0.0
         for name, value in inputs.items():
             drives[model[name].name] = signal_of(value, float(times[-1]), name)
-        experiment = Experiment(times, names, drives, self.values, start, rates=model.rate_inputs(drives))
+        values = self.set(**initial).values if isinstance(initial, Mapping) else self.values
+        experiment = Experiment(times, names, drives, values, start, rates=model.rate_inputs(drives))
         return Run(simulate(model, experiment, solver=Rodas(), check=check), self.name)
 
     def _begun(self, log: MeasuredRecord, initial: Initial) -> Experiment | None:

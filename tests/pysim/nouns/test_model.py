@@ -76,7 +76,15 @@ def test_mistakes_are_refused_with_a_cure(mass: Model, ask, said: str) -> None: 
         (lambda m, data: m.simulate(1, F="much"), "F", ""),
         (lambda m, data: pysim.fit(m, 3), "data", "give what pysim.load"),
         (lambda m, data: pysim.fit(m, data, initial="resting"), "initial", ""),
+        (lambda m, data: pysim.fit(m, data, starts="two"), "starts", ""),
+        (lambda m, data: m.simulate(1, initial="rest"), "initial", "write state = value"),
         (lambda m, data: pysim.load({"t": [0, 1, 2], "x": [0, 1, 2]}, outputs="x"), "inputs", ""),
+        (lambda m, data: pysim.load({"t": [0, 1], "x": [0, 1]}, inputs=3, outputs="x"), "inputs", ""),
+        (
+            lambda m, data: pysim.load({"t": [0, 1], "x": [0, 1]}, inputs="x", outputs="x", noise={"x": "a"}),
+            "noise",
+            "",
+        ),
     ],
 )
 def test_a_mistake_names_the_argument_and_the_cure(mass, data, ask, argument, cure) -> None:  # type: ignore[no-untyped-def]
@@ -133,6 +141,13 @@ def test_an_input_may_be_a_number_a_row_or_a_function(mass: Model) -> None:
         assert free.simulate(2, F=push)["x"] == pytest.approx(expected, abs=1e-4)
     still = free.simulate(2, F=0.0)["x"]
     assert np.all(still == 0.0)
+
+
+def test_a_run_without_a_log_begins_at_the_states_that_are_given(mass: Model) -> None:
+    """Without a force the mass swings from there: against the same states, set."""
+    begun, set_ = mass.simulate(1.0, initial={"x": 0.1}), mass.set(x=0.1).simulate(1.0)
+    assert begun["x"][0] == 0.1
+    assert np.array_equal(begun["x"], set_["x"])
 
 
 def test_a_log_drives_the_inputs_that_its_columns_are_named_like(mass: Model, data: Dataset) -> None:
