@@ -6,16 +6,19 @@ from pysim.identify.data_check.clock import Clock, clock
 from pysim.identify.data_check.finding import Finding, FindingCode
 from pysim.identify.data_check.folding import share_near_nyquist
 from pysim.identify.data_check.gaps import whole_rows
+from pysim.identify.data_check.held import Between, between_samples
 from pysim.identify.data_check.one_cause import with_one_cause
 from pysim.identify.data_check.swing import Swing, swing
 
 __all__ = [
+    "Between",
     "Clock",
     "DataCheck",
     "Finding",
     "FindingCode",
     "RecordCheck",
     "Swing",
+    "between_samples",
     "check_dataset",
     "clock",
     "plateaus",

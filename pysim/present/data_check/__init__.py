@@ -3,8 +3,7 @@
 from pysim.identify.data_check import DataCheck
 from pysim.present.data_check.answer import data, page, text, warnings_in_words
 from pysim.present.data_check.figures import figures
-from pysim.present.data_check.held import assumed_between_samples
-from pysim.present.data_check.words import lines, sentence
+from pysim.present.data_check.words import assumed_between_samples, lines, sentence
 
 __all__ = [
     "DataCheck",

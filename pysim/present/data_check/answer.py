@@ -9,8 +9,7 @@ from typing import Any
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted, shown_point, toml_key
 from pysim.io.prepare import call, typed
-from pysim.present.data_check.held import assumed_between_samples
-from pysim.present.data_check.words import cures, sentence
+from pysim.present.data_check.words import assumed_between_samples, cures, sentence
 from pysim.present.notes import USES
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page

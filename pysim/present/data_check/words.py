@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
-from pysim.identify.data_check import Finding, FindingCode
+from pysim.identify.data_check import Between, Finding, FindingCode, between_samples
 from pysim.io import counted
 from pysim.io.prepare import Step, call
-from pysim.types import UNITS
+from pysim.present.notes import listed
+from pysim.types import UNITS, Dataset
 
 _WORDS: Mapping[FindingCode, str] = {
     FindingCode.NOT_IN_MODEL: (
@@ -57,6 +58,12 @@ _MEASURED = "by the model's answer one {unit} is {factor:.4g} {wanted}, and the 
 _KNOWN = "100 % are 1"
 _OPEN = 'put how many {to} one {unit} is for the dots: data = data.scale("{signal}", ..., unit="{to}", of="{unit}")'
 _SHARES = ("share", "jitter")  # shown in percent
+_BETWEEN = {
+    Between.HELD: "is taken as held between its samples",
+    Between.HELD_AT_JUMPS: "is taken as held between its samples where it jumps",
+    Between.SMOOTH: "stays for two samples or more after each change, and is taken as smooth",
+}
+_SHOWN = 4  # logs
 
 
 def sentence(found: Finding) -> str:
@@ -84,3 +91,12 @@ def cures(findings: Iterable[Finding]) -> list[Step]:
     ordered = sorted(findings, key=lambda found: order.index(found.code))
     steps = {call(step): step for found in ordered for step in found.cure}
     return list(steps.values())
+
+
+def assumed_between_samples(dataset: Dataset) -> list[tuple[str, str]]:
+    """Inputs that jump or run in steps, each with what is assumed of it, in a sentence."""
+    found = []
+    for name, how, logs in between_samples(dataset):
+        more = [f"{len(logs) - _SHOWN} more"] if len(logs) > _SHOWN else []
+        found.append((name, f"In {listed([*logs[:_SHOWN], *more])}, {name} {_BETWEEN[how]}."))
+    return found

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from pysim.identify.data_check import Between, between_samples
 from pysim.nouns.data import load
-from pysim.present.data_check import assumed_between_samples
 from pysim.types import Dataset, Record
 from pysim.types.record_kind import Command
 from tests.toy import measured
@@ -28,24 +28,23 @@ def driven(values: NDArray[np.float64], **said: object) -> Dataset:
 @pytest.mark.parametrize("samples", [2, 3, 10, 300])
 def test_a_command_that_was_held(samples: int) -> None:
     steps = np.repeat(DRAWN, samples)[:600]
-    ((name, said),) = assumed_between_samples(driven(steps))
-    assert (name, "a.txt" in said, "b.txt" in said) == ("F", True, False)
-    assert ("smooth" in said) == (samples == 2)  # which simulations take for a curve
-    assert assumed_between_samples(driven(steps, hold=Command.LINES)) == []
+    how = Between.SMOOTH if samples == 2 else Between.HELD_AT_JUMPS  # which simulations take for a curve
+    assert between_samples(driven(steps)) == [("F", how, ["a.txt"])]
+    assert between_samples(driven(steps, hold=Command.LINES)) == []
 
 
 def test_a_kind_of_log_that_is_held() -> None:
     data = measured(1)
     first, second = data.records
-    ((_, said),) = assumed_between_samples(replace(data, records=(first, replace(second, kind="step"))))
-    assert ("a.txt" in said, "b.txt" in said) == (False, True)
+    found = between_samples(replace(data, records=(first, replace(second, kind="step"))))
+    assert found == [("F", Between.HELD, ["b.txt"])]
 
 
 @pytest.mark.parametrize("digit", [1e-1, 1e-2, 1e-9])
 def test_a_rounded_wave_is_no_staircase(digit: float) -> None:
     slow = np.sin(np.arange(600) / 40)
-    said = assumed_between_samples(driven(np.round(slow / digit) * digit))
-    assert not any("smooth" in one for _, one in said)
+    found = between_samples(driven(np.round(slow / digit) * digit))
+    assert not any(how is Between.SMOOTH for _, how, _ in found)
 
 
 def test_the_check_says_it_until_the_data_do() -> None:

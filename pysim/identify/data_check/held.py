@@ -1,48 +1,54 @@
-"""What is assumed of inputs between their samples, where the data set does not say it and they may have been held."""
+"""How inputs run between their samples, where the data set does not say it and they may have been held."""
 
 from __future__ import annotations
+
+from enum import Enum, auto
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.logged.command import jumps
 from pysim.io.prepare.step import stands
-from pysim.present.notes import listed
 from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Record
 from pysim.types.record_kind import KINDS, Command
 
-_SHOWN = 4  # logs
 _FEWEST = 20  # changes that show steps
 _STANDING = 0.9  # smallest share of its changes with an equal sample ahead
 _UNLIKE = 2.5  # ratio of its usual change to its smallest one; a rounded signal changes by one digit
 
 
-def assumed_between_samples(dataset: Dataset) -> list[tuple[str, str]]:
-    """Inputs that jump or run in steps, each with what is assumed of it, in a sentence."""
-    found = []
+class Between(Enum):
+    """What is assumed of an input between the samples of a log."""
+
+    HELD = auto()
+    HELD_AT_JUMPS = auto()
+    SMOOTH = auto()  # though it stays for two samples or more after each change
+
+
+def between_samples(dataset: Dataset) -> list[tuple[str, Between, list[str]]]:
+    """Each input that jumps or runs in steps, what is assumed of it, and in which logs."""
+    found = dict[tuple[str, Between], list[str]]()
     for signal in dataset.signals:
         if signal.role == "input" and signal.hold is None:
-            taken = [(log.source, _taken(dataset, log, signal)) for log in dataset.logs()]
-            for words in dict.fromkeys(how for _, how in taken if how):
-                logs = [source for source, how in taken if how == words]
-                more = [f"{len(logs) - _SHOWN} more"] if len(logs) > _SHOWN else []
-                found.append((signal.name, f"In {listed([*logs[:_SHOWN], *more])}, {signal.name} {words}."))
-    return found
+            for log in dataset.logs():
+                if (how := _between(dataset, log, signal)) is not None:
+                    found.setdefault((signal.name, how), []).append(log.source)
+    return [(*signal, logs) for signal, logs in found.items()]
 
 
-def _taken(dataset: Dataset, log: MeasuredRecord, signal: MeasuredSignal) -> str:
-    """How an input is taken between the samples of a log; empty where nothing speaks for a command that was held."""
+def _between(dataset: Dataset, log: MeasuredRecord, signal: MeasuredSignal) -> Between | None:
+    """None where nothing speaks for a command that was held."""
     if not isinstance(log.data, Record) or signal.name not in log.data.names:
-        return ""
+        return None
     if stands(dataset, log, signal.name):
-        return "is taken as held between its samples"
+        return Between.HELD
     if KINDS[log.kind].command is not Command.SPLINE:
-        return ""
+        return None
     values = log.data[signal.name]
     found = jumps(values)
     if _is_stepped(values, len(found)):
-        return "stays for two samples or more after each change, and is taken as smooth"
-    return "is taken as held between its samples where it jumps" if found else ""
+        return Between.SMOOTH
+    return Between.HELD_AT_JUMPS if found else None
 
 
 def _is_stepped(values: NDArray[np.float64], jumped: int) -> bool:
