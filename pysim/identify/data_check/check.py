@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -187,8 +187,10 @@ def _of_output(
     own, time = short_name(dataset, record), log.time[inside]
     flat = plateaus(log[name][inside], *ends)
     if flat:
-        cure = [Exclude(own, *map(float, (time[a], time[b - 1]))) for a, b in flat]
-        cure = cure if len(cure) <= _CUTS else [Exclude(own)]
+        cuts = _joined(flat, time.size)
+        cure = [Exclude(own, *map(float, (time[a], time[b - 1]))) for a, b in cuts]
+        if len(cuts) > _CUTS or cuts == [(0, time.size)]:
+            cure = [Exclude(own)] if len(dataset.logs()) > 1 else []
         yield finding(
             FindingCode.CLIPPED,
             record.source,
@@ -205,6 +207,16 @@ def _of_output(
         yield finding(
             FindingCode.OUTLIERS, record.source, usual, signal=name, count=int(far.size), start=float(log.time[far[0]])
         )
+
+
+def _joined(flat: Sequence[tuple[int, int]], size: int) -> list[tuple[int, int]]:
+    """Samples (first, stop) to leave out, so that no stretch that is left is too short; `size` samples in all."""
+    cuts = [(0, 0)]
+    for first, stop in (*flat, (size, size)):
+        if first - cuts[-1][1] < _SHORT:
+            first = cuts.pop()[0]
+        cuts.append((first, stop))
+    return [(first, stop) for first, stop in cuts if stop > first]
 
 
 def _wave_inside(record: MeasuredRecord, log: Record) -> slice:
