@@ -103,19 +103,15 @@ class SineLog:
         first = int(np.searchsorted(phase, phase[0] + (1 - 1e-6) * 2 * np.pi))
         if min(first, phase.size - first) < 2 * self.count + 2:
             return 0.0
-        (begun, one), (rest, other) = (self._fitted(part) for part in (slice(first), slice(first, None)))
-        return float(np.max(np.abs(rest - begun) / np.sqrt(one + other)))
-
-    def _fitted(self, part: slice) -> tuple[Array, Array]:
-        """Mean, and sine and cosine amplitude of each harmonic, fitted to a part of the samples; and their variances.
-        Both are (n_h, n_y), in the signals' units or their squares."""
-        columns, values = self.columns[part], self.measured.values[part]
-        spread = np.linalg.inv(columns.T @ columns)
-        found = spread @ (columns.T @ values)
-        scatter = np.sqrt(np.mean((values - columns @ found) ** 2, axis=0))
-        back = np.linalg.inv(self.triangle)
-        variances = np.einsum("ij,jk,ik->i", back, spread, back)
-        return back @ found, variances[:, None] * np.maximum(scatter, self.noise) ** 2
+        parts, back = [], np.linalg.inv(self.triangle)
+        for part in (slice(first), slice(first, None)):
+            columns, values = self.columns[part], self.measured.values[part]
+            spread = np.linalg.inv(columns.T @ columns)
+            found = spread @ (columns.T @ values)
+            parts.append((back @ found, np.einsum("ij,jk,ik->i", back, spread, back), values - columns @ found))
+        (begun, one, _), (rest, other, left) = parts
+        noise = np.maximum(np.sqrt(np.mean(left**2, axis=0)), self.noise)  # a transient adds to the first period's
+        return float(np.max(np.abs(rest - begun) / (noise * np.sqrt(one + other)[:, None])))
 
     def coefficients(self, uncorrelated: Array) -> NDArray[np.complex128]:
         """Coefficients (n_h, ...) as in `harmonics` -> mean and complex harmonics (count + 1, ...)."""

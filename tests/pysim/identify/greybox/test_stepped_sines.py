@@ -1,5 +1,7 @@
 """A stepped sine that has not settled is told from one that has, and compared as what it is: a log over time."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -31,6 +33,14 @@ def test_a_drift_is_seen_where_the_noise_lets_it_be(runs: int) -> None:
     assert 1.0 < np.median(still) < 2.5  # the largest of eleven normal numbers
     assert max(swing(1e-3, seed).unlike for seed in range(20)) < 5.0
     assert min(swing(0.2, seed).unlike for seed in range(20)) > 5.0
+
+
+def test_a_transient_of_two_samples_is_seen() -> None:
+    """Too short for any harmonic, and larger than what they leave of the first period: 50 and 20 noises."""
+    still = swing(0.0, 1)
+    values = still.measured.values.copy()
+    values[:2, 0] += TOLD * np.array([50.0, 20.0])
+    assert still.unlike < 5.0 < replace(still, measured=replace(still.measured, values=values)).unlike
 
 
 def test_one_period_has_no_other_to_be_compared_with() -> None:
