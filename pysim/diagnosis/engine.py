@@ -166,7 +166,7 @@ def _account(session: Session, found: Found, models: Named, simulation: Simulati
     last, notes = steps[-1][0], dict.fromkeys(note for _, own in steps for note in own)
     rest = follows(found.final, session.dataset, session.treatment.noise.blocks)
     heard = tone(found.final, session.dataset, session.settings.false_alarm)
-    left = verdict.what_is_left(found, rest, heard, last)
+    left = verdict.what_is_left(found, rest, heard, last, session.settings)
     complete = verdict.is_complete(found, rest, left, last, session.settings)
     return _Account(tuple(step for step, _ in steps), tuple(notes), left, complete)
 

@@ -20,7 +20,7 @@ from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.identify.greybox.effective_size import inflation
 from pysim.identify.greybox.trust import at_bound
 from pysim.types import Effect, EffectParameter, Estimate, Note, NoteCode, RecordFit
-from pysim.types.answer import ErrorStep, FoundEffect, GainTest, Left, Rival, Verdict
+from pysim.types.answer import ErrorStep, FoundEffect, GainTest, Left, Rival, StandsOut, Verdict
 from pysim.types.fit import HALF_95
 
 
@@ -58,11 +58,14 @@ def _sensor(
     return FoundEffect(effect, nuisance.signal, (estimate,), share)
 
 
-def what_is_left(found: Found, follows: Follows | None, tone: float | None, last: ErrorStep) -> Left:
+def what_is_left(
+    found: Found, follows: Follows | None, tone: float | None, last: ErrorStep, settings: Settings
+) -> Left:
     """What the final model leaves; `last` is its step of the error history."""
     floors = {f"{dataset}/{signal}": floor for (dataset, signal), floor in found.floors.floors.items()}
     share, t = (None, None) if follows is None else (follows.share, follows.t)
-    return Left(floors, last.fit, last.validate, share, t, tone)
+    worst = stands_out([record for record in last.records if record.use != TEST], settings)
+    return Left(floors, last.fit, last.validate, share, t, tone, worst)
 
 
 def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorStep, settings: Settings) -> bool:
@@ -71,31 +74,33 @@ def is_complete(found: Found, follows: Follows | None, left: Left, last: ErrorSt
     That is: no candidate is significant, the model's signals do not predict the residual, it has no tone, and no log
     that was fitted or used to choose leaves more than the others.
     """
-    if found.undecidable or found.more or left.tone is not None:
+    if found.undecidable or found.more or left.tone is not None or left.stands_out is not None:
         return False
-    predicted = follows is not None and follows.share > settings.small and follows.t > settings.follows_t
-    if predicted or stands_out([record for record in last.records if record.use != TEST], settings):
+    if follows is not None and follows.share > settings.small and follows.t > settings.follows_t:
         return False
     if found.floors.within(found.final, settings.near):  # the only sign of misfit if there is no regression
         return True
     return follows is not None and not hardly_explains(last, settings)
 
 
-def stands_out(records: Sequence[RecordFit], settings: Settings) -> bool:
-    """Whether a signal's residual is larger in some log than in the others: a sensor's noise is the same in all.
+def stands_out(records: Sequence[RecordFit], settings: Settings) -> StandsOut | None:
+    """The log in which a signal's residual is most clearly larger than in the others; None where chance may do that.
 
-    Two variances are compared by their F test. Squares of n Gaussian residuals with autocorrelations rho are worth
-    n / sum(rho^2) independent ones (Bartlett 1946).
+    A sensor's noise is the same in all. Two variances are compared by their F test. Squares of n Gaussian residuals
+    with autocorrelations rho are worth n / sum(rho^2) independent ones (Bartlett 1946).
     """
-    columns = [(f"{one.dataset}/{k}", one.residual[k][:, None]) for one in records for k in one.measured.names]
-    names = np.array([name for name, _ in columns])
+    columns = [(one, k, one.residual[k][:, None]) for one in records for k in one.measured.names]
+    if not columns:
+        return None
+    names = np.array([f"{one.dataset}/{k}" for one, k, _ in columns])
     others = (names[:, None] == names) & ~np.eye(len(columns), dtype=bool)
-    variance = np.array([np.mean(column**2) for _, column in columns])
-    worth = np.array([column.size / inflation([column], [column]) for _, column in columns])
+    variance = np.array([np.mean(column**2) for *_, column in columns])
+    worth = np.array([column.size / inflation([column], [column]) for *_, column in columns])
     rest = others @ worth  # 0 where no other log has the signal: no limit then
     ratio = variance / np.maximum(others @ (worth * variance) / np.maximum(rest, 1.0), 1.0)
-    chance = settings.false_alarm / max(len(columns), 1)
-    return bool(np.any(ratio > settings.held_out**2 * f.isf(chance, worth, rest)))
+    limit = settings.held_out**2 * f.isf(settings.false_alarm / len(columns), worth, rest)
+    k = int(np.argmax(np.nan_to_num(ratio / limit)))
+    return StandsOut(columns[k][0].source, columns[k][1], float(np.sqrt(ratio[k]))) if ratio[k] > limit[k] else None
 
 
 def hardly_explains(last: ErrorStep, settings: Settings) -> bool:

@@ -345,6 +345,15 @@ class Detectable:
 
 
 @dataclass(frozen=True)
+class StandsOut:
+    """A log whose residual of a signal is `over` times as large as in the other logs."""
+
+    record: str
+    signal: str
+    over: float
+
+
+@dataclass(frozen=True)
 class Left:
     """What is left after the last model.
 
@@ -354,6 +363,7 @@ class Left:
         share_explained: of the residual, by regression on the model's own signals, 0 ... 1; None where not judged.
         t: of that share.
         tone: Hz, of one that the residual holds; None where it holds none.
+        stands_out: the log that leaves more than the others; None where none does.
     """
 
     floors: Mapping[str, NoiseFloor]
@@ -362,6 +372,7 @@ class Left:
     share_explained: float | None = None
     t: float | None = None
     tone: float | None = None
+    stands_out: StandsOut | None = None
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "floors", FrozenMapping(self.floors))

@@ -113,11 +113,13 @@ def _rival(row: Rival) -> Json:
 
 
 def _left(left: Left, last: ErrorStep | None) -> Json:
+    most = left.stands_out
     return {
         "rms_over_floor": {"fit": left.fit, "validate": left.validate},
         "share_explained": left.share_explained,
         "t": left.t,
         "tone": left.tone,
+        "stands_out": None if most is None else {"record": most.record, "signal": most.signal, "over": most.over},
         "parts": [_failure(one) for one in (last.failures if last else ())],
         "floors": {name: {"sd": f.sd, "source": f.source.value} for name, f in left.floors.items()},
     }

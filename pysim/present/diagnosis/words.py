@@ -85,12 +85,14 @@ def _left(diagnosis: Diagnosis) -> str:
     size = f"The residual is {listed(parts)}, in {UNIT}." if parts else "Only frequency responses were compared."
     if diagnosis.complete:
         return f"{size} {_rest(diagnosis)}"
-    share = left.share_explained
-    follows = [] if share is None else [f"{100 * share:.0f} % of it follows the model's own signals."]
-    tone = (
-        [] if left.tone is None else [f"It holds a tone of {left.tone:.4g} Hz, which no effect of the catalogue gives."]
-    )
-    return " ".join([size, *follows, *tone])
+    said = [size]
+    if left.share_explained is not None:
+        said.append(f"{100 * left.share_explained:.0f} % of it follows the model's own signals.")
+    if left.tone is not None:
+        said.append(f"It holds a tone of {left.tone:.4g} Hz, which no effect of the catalogue gives.")
+    if (odd := left.stands_out) is not None:
+        said.append(f"In {odd.record}, {odd.signal} leaves {size_text(odd.over)} times what it leaves elsewhere.")
+    return " ".join(said)
 
 
 def comparison_sentence(diagnosis: Diagnosis) -> str:

@@ -25,6 +25,7 @@ from pysim.present.diagnosis.words import (
     verdict_sentence,
 )
 from pysim.types import Diagnosis, Effect, ErrorStep, FoundEffect, Left, NextTest, PlannedTest, Rival
+from pysim.types.answer import StandsOut
 from tests.pysim.diagnosis_answer import LAW, OFFSET, estimate, found_offset, nothing, step
 
 PLANNED = PlannedTest(True, 0.25, 1.5, 3.0, "mm", 16.0)
@@ -67,6 +68,10 @@ def test_what_is_left_is_said_with_none_with_unknown_and_where_more_is_missing()
     left = Left({}, 4.2, 3.2, 0.6, 9.0)
     assert numbers(verdict_sentence(nothing(complete=False, left=left))) == [4.2, 3.2, 60.0]
     assert numbers(verdict_sentence(found_offset(complete=False, left=left)))[-3:] == [4.2, 3.2, 60.0]
+    odd = replace(left, stands_out=StandsOut("sweep.txt", "x", 2.5))
+    said = verdict_sentence(nothing(complete=False, left=odd))
+    assert numbers(said) == [4.2, 3.2, 60.0, 2.5]
+    assert "sweep.txt" in said
 
 
 def test_where_no_effect_was_tried_none_is_excluded() -> None:
