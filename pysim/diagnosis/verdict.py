@@ -6,7 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from scipy.stats import f
+from scipy.special import fdtri
 
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import sensor_name, switches
@@ -98,7 +98,7 @@ def stands_out(records: Sequence[RecordFit], settings: Settings) -> StandsOut | 
     worth = np.array([column.size / inflation([column], [column]) for *_, column in columns])
     rest = others @ worth  # 0 where no other log has the signal: no limit then
     ratio = variance / np.maximum(others @ (worth * variance) / np.maximum(rest, 1.0), 1.0)
-    limit = settings.held_out**2 * f.isf(settings.false_alarm / len(columns), worth, rest)
+    limit = settings.held_out**2 * fdtri(worth, rest, 1 - settings.false_alarm / len(columns))
     k = int(np.argmax(np.nan_to_num(ratio / limit)))
     return StandsOut(columns[k][0].source, columns[k][1], float(np.sqrt(ratio[k]))) if ratio[k] > limit[k] else None
 
