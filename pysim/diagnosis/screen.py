@@ -36,6 +36,8 @@ class Screened:
         change: (n_r,) change of the residual that parameters cannot imitate, in the units of the channels.
         start: first state of the refit, the effect practically off; None if it must still be simulated.
         before: cost of the present model, simulated as the start is, nats.
+        nonlinear: whether it is an amount that changes other samples at this size than practically off, as air does
+            where a chamber would run empty without it: the derivative says nothing of this size.
     """
 
     candidate: Candidate
@@ -45,6 +47,7 @@ class Screened:
     change: Array = field(repr=False)
     start: FinalFit | None = field(default=None, repr=False)
     before: float = math.nan
+    nonlinear: bool = False
 
     @property
     def effect(self) -> Effect:
@@ -89,31 +92,39 @@ def screen(
     sizes: Sizes | None = None,
     *,
     fits: Simulation | None = None,
+    wrong_by: float | None = None,
 ) -> list[Screened]:
     """Screen every effect of the catalogue in the present model; the largest gain first.
 
-    For amounts, one run with all of them practically off gives the derivatives. Other effects are simulated at each
-    size. Effects that cannot be compiled or simulated are left out and listed in `models.refused`.
+    For amounts, one run with all of them practically off gives the derivatives. Other effects, and nonlinear
+    amounts, are simulated at each size. Effects that cannot be compiled or simulated are left out and listed in
+    `models.refused`.
 
     Args:
         beside: returns the present fit, its stepped sines as orbits (False) or simulated over time (True).
         simulation: solver settings of an effect at a size.
         fits: solver settings of the starts of refits; `simulation` if None.
+        wrong_by: factor by which a first-order gain may be wrong before an amount counts as nonlinear; None: none does.
     """
     sizes, before = sizes or Sizes(), cache(lambda transient: _Before.of(beside(transient)))
     own = before(False).present.candidate
     found = list(_by_slopes(models, before, fits or simulation, sizes))
-    have = {effect.name for effect in own.effects} | {one.effect.name for one in found}
+    have, slopes = {effect.name for effect in own.effects}, {one.effect.name: one for one in found}
     for effect in models.session.catalogue:
-        if effect.name in have:
+        if effect.name in have or (effect.name in slopes and wrong_by is None):
             continue
         try:
             candidate = models.of((*own.effects, effect), own.nuisances)
         except BadInput as error:
             models.refused.setdefault(effect.name, str(error))
             continue
-        tried = list(_screened(candidate, effect, before(candidate.transient), simulation, sizes))
-        if not tried:
+        there, slope = before(candidate.transient), slopes.get(effect.name)
+        tried = list(_screened(candidate, effect, there, simulation, sizes))
+        if slope is not None and wrong_by is not None:
+            pairs = [(slope.change / there.rows.level, one.change / there.rows.level) for one in tried]
+            alike = any(a @ b > np.linalg.norm(a) * np.linalg.norm(b) / math.sqrt(wrong_by) for a, b in pairs)
+            tried = [] if alike else [replace(one, nonlinear=True) for one in tried]
+        elif not tried:
             models.refused.setdefault(effect.name, "the model could not be simulated with it")
         found += tried
     return sorted(found, key=lambda one: -one.gain)

@@ -361,8 +361,9 @@ class Search:
         self.say.doing(f"trying effects beside {' + '.join(present.names) or 'the base model'}")
         beside = partial(self._beside, present)
         near = self.floors.within(present, self.settings.near)
-        starts = Starts(beside, self.fine if near else self.rough, near, self.settings)
-        sizes = screen(self.models, beside, self.rough, fits=starts.simulation)
+        starts = Starts(beside, self.fine if near else self.rough, near, self.floors.potential(present), self.settings)
+        wrong_by = self.settings.first_order_error if near else None
+        sizes = screen(self.models, beside, self.rough, fits=starts.simulation, wrong_by=wrong_by)
         tried = best_of_each(sizes)
         sensors = with_sensor_errors(starts.here(present.candidate.transient), self.models)
         self.tried = max(self.tried, len(tried) + len(sensors))

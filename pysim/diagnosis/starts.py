@@ -5,11 +5,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import cache, partial
+from functools import cache
 
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate, Models, Values
-from pysim.diagnosis.refit import FinalFit, Runner, begin, begun, cost_at, exact
+from pysim.diagnosis.refit import FinalFit, Runner, begin, begun, converged, cost_at, exact
 from pysim.diagnosis.screen import Screened, best_of_each, own_values
 from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import Nuisance, NuisanceKind, Simulation
@@ -24,12 +24,14 @@ class Starts:
         beside: returns the model's fit, its stepped sines as orbits (False) or simulated over time (True).
         simulation: solver settings of the refits.
         near: whether its residual is so close to the noise floor that first-order gains bound what a refit can gain.
+        potential: gain in nats of a model that leaves only noise.
         settings: of the search.
     """
 
     beside: Callable[[bool], FinalFit]
     simulation: Simulation
     near: bool
+    potential: float
     settings: Settings
     _here: dict[bool, FinalFit] = field(default_factory=dict, init=False, repr=False)
 
@@ -55,7 +57,7 @@ class Starts:
             sensors: the model with one more sensor error each.
             tried: number of candidates, for the Bonferroni correction.
         """
-        screened = best_of_each(sizes)
+        screened = best_of_each([one for one in sizes if not one.nonlinear])
         found = [self._of_effect(one) for one in screened]
         found += [self._of_sensor(fit) for fit in sensors]
         if not self.near:  # the model's parameters may be those of a local minimum
@@ -66,6 +68,10 @@ class Starts:
             for one, left in zip(screened, lefts, strict=True)
         ]
         worth += [(1, 1.0)] * len(sensors)
+        for one in sizes:
+            if one.nonlinear:  # refitted to its end at once: no step on the way there promises what the end gains
+                found.append(self._runner(one.candidate, one.values, self.potential, ended=True))
+                worth.append((1, 1.0))
         samples, size = rivals.samples(self.beside(False)), self.beside(False).candidate.size
         chances = [
             tried * rivals.p_value(one.most, df, samples, size + df, inflated)
@@ -98,8 +104,13 @@ class Starts:
         """Largest gain in nats that a refit can have, given its first-order gain; infinite far from the floor."""
         return self.settings.first_order_error * gain if self.near else math.inf
 
-    def _runner(self, candidate: Candidate, values: Values, most: float) -> Runner:
-        start = partial(begin, candidate, values, self.simulation, self.beside(candidate.transient))
+    def _runner(self, candidate: Candidate, values: Values, most: float, *, ended: bool = False) -> Runner:
+        """Start at these values, refitted to the end at once if `ended`."""
+
+        def start() -> FinalFit:
+            fit = begin(candidate, values, self.simulation, self.beside(candidate.transient))
+            return converged(fit) if ended else fit
+
         return Runner(start, self.here(candidate.transient).point.cost, most)
 
     def _of_effect(self, one: Screened) -> Runner:

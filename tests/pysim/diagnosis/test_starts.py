@@ -18,7 +18,7 @@ def runners(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = 
         return fit
 
     found = screen(models, beside, FINE, sizes)
-    return Starts(beside, FINE, near, Settings()).runners(found, [], len(best_of_each(found)))
+    return Starts(beside, FINE, near, 0.0, Settings()).runners(found, [], len(best_of_each(found)))
 
 
 def begun(models: Models, fit: FinalFit, *, near: bool, sizes: Sizes | None = None) -> Mapping[str, list[FinalFit]]:
