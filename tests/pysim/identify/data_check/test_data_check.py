@@ -15,7 +15,7 @@ from pysim.identify.data_check import (
     share_near_nyquist,
     swing,
 )
-from pysim.io.prepare import DropOutliers, Exclude, FillGaps, Flip, Rename, Resample, Scaled
+from pysim.io.prepare import DropOutliers, FillGaps, Flip, Rename, Resample, Scaled, prepared
 from pysim.types import Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
 
 SIGNALS = (
@@ -219,9 +219,24 @@ def test_empty_cells_are_found_with_the_length_that_fills_them() -> None:
     assert 0.012 < fill.longest < 0.02  # from the sample ahead of two that are missing to the one behind, at 250 Hz
 
 
-def test_a_short_log_is_left_out() -> None:
-    (short,) = found(time=TIME[:12])
-    assert (short.code, short.cure) == (FindingCode.TOO_SHORT, (Exclude("x"),))
+def logs(*lengths: int) -> Dataset:
+    """A log of so many samples each."""
+    data = np.column_stack([sine(), measured(0.9 * sine())])
+    parts = [Record(TIME[:n], data[:n], ("cmd", "y"), ("%", "%")) for n in lengths]
+    records = [MeasuredRecord(f"{k}.txt", "other", "fit", part) for k, part in enumerate(parts)]
+    return Dataset("d", "-", "-", SIGNALS, tuple(records))
+
+
+@pytest.mark.parametrize(("lengths", "left"), [((12,), None), ((12, 15), None), ((501, 12), 1), ((12, 501, 15), 1)])
+def test_short_logs_are_left_out_where_another_is_left(lengths: tuple[int, ...], left: int | None) -> None:
+    data = logs(*lengths)
+    short = check_dataset(data).findings
+    assert [one.code for one in short] == [FindingCode.TOO_SHORT] * sum(n < 20 for n in lengths)
+    steps = [step for one in short for step in one.cure]
+    if left is None:
+        assert steps == []
+    else:
+        assert len(prepared(data, steps).records) == left
 
 
 def beside(y: np.ndarray, simulated: np.ndarray, unit: str = "%", to: str = "%") -> tuple[Finding, ...]:
