@@ -83,12 +83,14 @@ def names_beside(dataset: Dataset, model: Model, known: Collection[str] = ()) ->
     logs = [record for record in dataset.logs() if isinstance(record.data, Record)]
     if not logs:
         return
-    names = {v.name for v in model.variables}
+    variables = {v.name: v for v in model.variables}
     sides = {side: [v for v in model.variables if v.causality == side] for side in ("input", "output")}
     for signal in dataset.signals:
-        if signal.variable not in names:
+        variable = variables.get(signal.variable)
+        if variable is None or not variable.moves:
             own = ", ".join(v.name for v in sides[signal.role]) or f"its {signal.role}s, of which there are none"
-            yield finding(FindingCode.NOT_IN_MODEL, logs[0].source, signal=signal.name, known=own)
+            more = {"still": variable.name} if variable else {}
+            yield finding(FindingCode.NOT_IN_MODEL, logs[0].source, signal=signal.name, known=own, **more)
     driven = [signal.variable for signal in dataset.signals if signal.role == "input"]
     rates = model.rate_inputs(driven)
     for one in sides["input"]:

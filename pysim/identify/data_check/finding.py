@@ -13,7 +13,7 @@ from pysim.types._frozen import FrozenMapping
 class FindingCode(Enum):
     """Kind of a finding, in the order of correction. The comments list the keys of `Finding.values`."""
 
-    NOT_IN_MODEL = "not_in_model"  # signal, known (names): the model has no such variable, so it is not compared
+    NOT_IN_MODEL = "not_in_model"  # signal, known (names), maybe still (name of a parameter): it is not compared
     NOT_DRIVEN = "not_driven"  # signal, value, unit: an input of the model that no signal drives
     EMPTY = "empty"  # signal, count, start (s): cells without a number
     GAP = "gap"  # count, start, length (s): samples were lost

@@ -12,7 +12,7 @@ from pysim.types import UNITS, Dataset
 
 _WORDS: Mapping[FindingCode, str] = {
     FindingCode.NOT_IN_MODEL: (
-        "the model has no {signal}, so a fit will refuse it; rename it to one of {known}, or load the log without it"
+        "the model has no {there}, so a fit will refuse it; rename it to one of {known}, or load the log without it"
     ),
     FindingCode.NOT_DRIVEN: (
         "no signal drives the model's input {signal}, which stays at {value:g} {unit}; name the column that does, "
@@ -74,6 +74,8 @@ def sentence(found: Finding) -> str:
     if found.code is FindingCode.QUANTITY:
         words["to"] = words["wanted"] if words["wanted"] in UNITS else "1"
         words["scaled"] = (_MEASURED if "factor" in words else _KNOWN if found.cure else _OPEN).format(**words)
+    if found.code is FindingCode.NOT_IN_MODEL:
+        words["there"] = f"{words['signal']} that moves" if "still" in words else words["signal"]
     if found.code is FindingCode.GAP:
         count = int(words["count"])
         words["gaps"] = f"{count} gaps in time, the longest" if count > 1 else "a gap in time,"
