@@ -31,11 +31,13 @@ def with_one_cause(found: DataCheck, answers: Mapping[str, Record], check: Calla
     found = _swapped_by_level(found, answers)
     signs = [one for one in found.beside_model if one.code is FindingCode.SIGN]
     outputs, dataset = tuple(str(one.values["signal"]) for one in signs), found.dataset
-    if len(signs) < 2 or dataset.responses():
+    some = {step.logs for one in signs for step in one.cure if isinstance(step, Flip)}
+    if len(signs) < 2 or len(some) > 1 or dataset.responses():
         return found
-    steps: list[Any] = [Flip((one.name,)) for one in dataset.signals if one.role == "input"]
-    steps += _swaps(dataset, outputs)
-    turned = _misfit(Flip(outputs).apply(dataset), answers)
+    logs = next(iter(some))
+    steps: list[Any] = [Flip((one.name,), logs) for one in dataset.signals if one.role == "input"]
+    steps += [] if logs else _swaps(dataset, outputs)
+    turned = _misfit(Flip(outputs, logs).apply(dataset), answers)
     best, result = min(_misfit(dataset, answers), _AS_GOOD * turned), found
     for step in steps:
         after, its = check(step)
@@ -72,7 +74,9 @@ def _swaps(dataset: Dataset, outputs: Iterable[str]) -> list[Rename]:
 
 def _cause(step: Flip | Rename, source: str, outputs: tuple[str, ...]) -> Finding:
     if isinstance(step, Flip):
-        return finding(FindingCode.TURNED_INPUT, source, step, signal=step.signals[0], outputs=", ".join(outputs))
+        told = {"signal": step.signals[0], "outputs": ", ".join(outputs)}
+        told |= {"logs": ", ".join(step.logs)} if step.logs else {}
+        return finding(FindingCode.TURNED_INPUT, source, step, **told)
     one, other = step.names
     return finding(FindingCode.SWAPPED, source, step, signal=one, other=other)
 

@@ -76,6 +76,22 @@ def test_the_cause_is_named_once(level: float, turned: str, swapped: bool, lines
     assert all(step_name in repr(check) for step_name in lines)
 
 
+@pytest.mark.parametrize(
+    ("turned", "line"),
+    [("u", 'data = data.flip("u", logs=["run2"])'), ("x", 'data = data.flip("x", logs=["run2"])')],
+)
+def test_a_log_with_another_sign_than_the_others_is_named_once(turned: str, line: str) -> None:
+    plant = Cylinder(3e6)
+    frames = {}
+    for name, own in (("run1", ""), ("run2", turned), ("run3", "")):
+        frames[name] = logged(plant, own).to_dataframe().droplevel(0).reset_index()
+    data = load(frames, inputs="u", outputs=list(OUTPUTS), time="time [s]")
+    check = data.check(plant)
+    assert list(check.lines) == [line]
+    (found,) = check.findings
+    assert data.after(*found.cure).check(plant).ok
+
+
 def test_levels_tell_a_swap_though_the_model_does_not_follow() -> None:
     poor = Cylinder(3e6, follows=False)
     assert logged(Cylinder(3e6)).check(poor).ok
