@@ -19,6 +19,7 @@ from pysim.types import UNITS, Dataset, MeasuredSignal, Model, Record, conversio
 Array = NDArray[np.float64]
 
 _FOLLOWS = 0.7  # absolute correlation above which a signal follows the simulated one, or its negative
+_ALIKE = 0.8  # of the largest correlation in any log: the others tell a sign by as much, though they follow less
 _TONE = 0.1  # share of an answer's power beside its strongest line, below which it is one sine: such an answer is
 _LOBE = 2  # turned by a wrong resonance as well as by a sign; so many lines on each side, and periods, are too few
 _TURNED = 0.95  # absolute correlation of a sine against the model, above which its sign is turned all the same
@@ -216,8 +217,10 @@ def _of_signal(pair: _Pair) -> Iterator[Finding]:
         if pair.unit in UNITS and signal.unit in UNITS and pair.whole.follows:
             yield _calibrated(pair)
         return
-    right = any(log.correlation >= _FOLLOWS for log in logs)
-    wrong = [log for log in logs if log.correlation <= -_FOLLOWS]
+    most = max((abs(log.correlation) for log in logs), default=0.0)
+    least = min(_FOLLOWS, _ALIKE * most) if most >= _FOLLOWS else math.inf
+    right = any(log.correlation >= least for log in logs)
+    wrong = [log for log in logs if log.correlation <= -least]
     if right:
         wrong = [log for log in wrong if log.correlation <= -_TURNED or not log.is_tone]
     if wrong:

@@ -347,6 +347,18 @@ def test_each_log_is_judged_by_itself(wrong: tuple[int, ...], factor: float) -> 
         np.testing.assert_allclose(mended.records[k].data["y"], logged[k] / (factor if k in wrong else 1), rtol=1e-9)
 
 
+def test_logs_of_a_model_that_hardly_follows_tell_a_sign_by_as_much_as_each_other() -> None:
+    """Correlations of 0.72 and of 0.63: none of the latter is turned along with the former."""
+    own = ANSWER - ANSWER.mean()
+    rest = np.random.default_rng(4).normal(size=TIME.size)
+    rest -= rest.mean() + own * (rest @ own) / (own @ own)
+    rest *= np.sqrt((own @ own) / (rest @ rest))
+    logged = [r * own + np.sqrt(1 - r**2) * rest for r in (-0.63, 0.63, -0.72, 0.67, 0.1, -0.3)]
+    data, answers = several(logged, [ANSWER] * 6)
+    (turned,) = check_dataset(data, answers).beside_model
+    assert turned.cure == (Flip(("y",), ("run0", "run2")),)
+
+
 def test_a_resonance_elsewhere_is_no_turned_sign() -> None:
     """Half a period late, or nearly, is what a wrong eigenfrequency makes of a sine; of nothing else it does so."""
     tones = [np.sin(2 * np.pi * hz * TIME) for hz in (2.0, 5.0, 9.0)]
