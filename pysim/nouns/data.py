@@ -115,7 +115,7 @@ class Data(Shown):
         for step in steps:
             if isinstance(step, Rename):
                 units = {step.names.get(name, name): unit for name, unit in units.items()}
-            if isinstance(step, Scaled) and step.unit:
+            if isinstance(step, Scaled) and step.unit and not step.logs:
                 units[step.signal] = step.unit
         return replace(self, now=now, history=(*self.history, *steps), units=units)
 
@@ -155,21 +155,32 @@ class Data(Shown):
         """Let a signal come later by so many s; a negative number lets it come earlier, as where its sensor lags."""
         return self.after(Delay(signal, number_of(seconds, "seconds")))
 
-    def flip(self, *signals: str) -> Data:
-        """Turn the sign of signals."""
-        return self.after(Flip(names_of(signals, "signals")))
+    def flip(self, *signals: str, logs: Iterable[str] = ()) -> Data:
+        """Turn the sign of signals, in all logs or in those named."""
+        return self.after(Flip(names_of(signals, "signals"), names_of(logs, "logs")))
 
-    def scale(self, signal: str, factor: float = 1.0, offset: float = 0.0, unit: str = "", *, of: str = "") -> Data:
+    def scale(
+        self,
+        signal: str,
+        factor: float = 1.0,
+        offset: float = 0.0,
+        unit: str = "",
+        *,
+        of: str = "",
+        logs: Iterable[str] = (),
+    ) -> Data:
         """Multiply a signal in the unit it was logged in, and add an offset; the result is in `unit`, else in the same.
 
         Args:
             of: the unit in which its values count, where not that of the log.
+            logs: names of those to scale it in, where it keeps its unit; all where there are none.
 
         Raises:
-            BadInput: no such signal, or a unit that is not known.
+            BadInput: no such signal or log, or a unit that is not known.
         """
-        of = of or self.units.get(signal, "")
-        return self.after(Scaled(signal, number_of(factor, "factor"), number_of(offset, "offset"), unit or of, of))
+        of, names = of or self.units.get(signal, ""), names_of(logs, "logs")
+        numbers = number_of(factor, "factor"), number_of(offset, "offset")
+        return self.after(Scaled(signal, *numbers, unit or of, of, names))
 
     def rename(self, names: Mapping[str, str] | None = None, **more: str) -> Data:
         """Give signals other names, old="new"; two may swap theirs."""

@@ -16,6 +16,8 @@ from pysim.types.units import UNITS, conversion
 
 _DIGEST = re.compile(r"[0-9a-f]{32,}(-[0-9a-f]{32,})?")  # names a file in a cache
 _LISTED = 20  # names in a message
+_STILL_CAUSALITIES = ("parameter", "calculatedParameter", "structuralParameter", "independent")
+_STILL_VARIABILITIES = ("constant", "fixed", "tunable")
 
 
 @dataclass(frozen=True)
@@ -35,6 +37,12 @@ class Variable:
     max: float | None
     nominal: float | None
     derivative_of: str | None
+
+    @property
+    def moves(self) -> bool:
+        """Whether a sensor may show it: an output, or an input, state or algebraic variable that is not constant."""
+        still = self.causality in _STILL_CAUSALITIES or self.variability in _STILL_VARIABILITIES
+        return self.causality == "output" or not still
 
 
 @dataclass(frozen=True)
@@ -95,12 +103,9 @@ class Model:
         variable = self._by_name.get(name)
         if variable is not None:
             return variable
-        near = self._near(name)
+        near = _near(name, self._by_name)
         hint = f"near it: {', '.join(near)}" if near else f"pysim model {self.label} lists them"
         raise BadInput(f"{self.label} has no variable {name!r}; {hint}")
-
-    def _near(self, name: str) -> list[str]:
-        return difflib.get_close_matches(name, list(self._by_name), n=3)
 
     @property
     def label(self) -> str:
@@ -124,33 +129,39 @@ class Model:
         Args:
             source: where the signal is written, for an error: "data set 'x'" or "the plan".
         Raises:
-            BadInput: no such variable, a command that is no input of the model, or units that differ.
+            BadInput: no such variable, one that cannot move, a command that is no input of the model, or units that
+                differ.
         """
         said, below = f"signal {signal.name!r} of {source}", f"below [signals.{_key(signal.name)}]"
         variable = self._by_name.get(signal.variable)
         if variable is None:
-            there = self._instead(signal)
-            cure = f'write variable = "{there[1] or "..."}" {below}'
-            raise BadInput(f"{said}: {self.label} has no variable {signal.variable!r}; {there[0]}; {cure}")
+            raise BadInput(f"{said}: {self.label} has no variable {signal.variable!r}; {self._instead(signal, below)}")
         if signal.role == "input" and variable.causality != "input":
             raise BadInput(
-                f"{said}: {variable.name} is no input but of causality {variable.causality} in {self.label}; name the "
-                f"command: variable = ... {below}"
+                f"{said}: {variable.name} is no input but of causality {variable.causality} in {self.label}; "
+                f"{self._instead(signal, below)}"
             )
+        if not variable.moves:
+            kind, there = "parameter" if "arameter" in variable.causality else "constant", self._instead(signal, below)
+            raise BadInput(f"{said}: {variable.name} is a {kind} of {self.label}, so no log shows it; {there}")
         if self.scale(variable, signal.unit) != (1.0, 0.0):
             own = "without a unit" if variable.unit == "1" else f"in {variable.unit!r}"
             cure = _unit_cure(variable.unit, signal.unit, below)
             raise BadInput(f"{said} is in {signal.unit!r}, {variable.name} of {self.label} {own}; {cure}")
         return variable
 
-    def _instead(self, signal: MeasuredSignal) -> tuple[str, str]:
-        """What a signal may show in place of a variable that is not there, in words, and the likeliest."""
-        near = self._near(signal.variable)
-        if near:
-            return f"near it: {', '.join(near)}", near[0]
-        names = [variable.name for variable in self.variables if variable.causality == signal.role]
+    def _instead(self, signal: MeasuredSignal, below: str) -> str:
+        """What a signal may show in place of a variable that is not there or does not move, and how to say it."""
+        one_of = [v.name for v in self.variables if v.moves and (v.causality == "input") == (signal.role == "input")]
+        names = [v.name for v in self.variables if v.causality == signal.role]
+        near = _near(signal.variable, one_of)
         more = f" and {len(names) - _LISTED} more" if len(names) > _LISTED else ""
-        return f"its {signal.role}s: {', '.join(names[:_LISTED]) or '(none)'}{more}", ""
+        there = f"its {signal.role}s: {', '.join(names[:_LISTED]) or '(none)'}{more}"
+        likely = (near or (names if len(names) == 1 else ["..."]))[0]
+        hint = f"near it: {', '.join(near)}" if near else there
+        return (
+            f'{hint}; write variables={{"{signal.name}": "{likely}"}} in pysim.load, or variable = "{likely}" {below}'
+        )
 
     def scale(self, variable: Variable, unit: str) -> tuple[float, float] | None:
         """Factor and offset that make a number in the unit of data that of a variable; None: of different quantities.
@@ -161,6 +172,10 @@ class Model:
         if not self.declares_units or (variable.unit not in UNITS and unit == "1"):
             return 1.0, 0.0
         return conversion(unit, variable.unit)
+
+
+def _near(name: str, names: Iterable[str]) -> list[str]:
+    return difflib.get_close_matches(name, list(names), n=3)
 
 
 def _unit_cure(model: str, data: str, below: str) -> str:

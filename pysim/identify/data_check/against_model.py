@@ -3,21 +3,34 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.data_check.finding import Finding, FindingCode, finding
-from pysim.io.prepare import Flip, Rename, Scaled
+from pysim.identify.greybox.noise import seen_noise
+from pysim.io.prepare import Flip, Rename, Scaled, short_name
 from pysim.types import UNITS, Dataset, MeasuredSignal, Model, Record, conversion
 
 Array = NDArray[np.float64]
 
 _FOLLOWS = 0.7  # absolute correlation above which a signal follows the simulated one, or its negative
+_ALIKE = 0.8  # of the largest correlation in any log: the others tell a sign by as much, though they follow less
+_TONE = 0.1  # share of an answer's power beside its strongest line, below which it is one sine: such an answer is
+_LOBE = 2  # turned by a wrong resonance as well as by a sign; so many lines on each side, and periods, are too few
+_TURNED = 0.95  # absolute correlation of a sine against the model, above which its sign is turned all the same
+_MOVES = 0.05  # of a signal's largest simulated motion in any log: one that is simulated to move less tells nothing
+_CLEAR = 12.0  # noises: a smaller swing may be noise, which alone swings by four; what is near zero has no ratio
+_TAIL = 0.02  # of the samples at either end that a swing leaves out, for outliers
 _NEAR = 1.5  # ratio to a factor below, up to which a gain counts as that factor; the model's own gain may be wrong
+# A missing effect makes a signal larger or smaller, and hides whether it follows the model. By more than this factor
+# none does: friction, a dead band or a leak takes its part of a motion that is otherwise the model's.
+_BEYOND = 10.0
+_ROUGH = 0.2  # power of a factor by which a swing that does not follow may be off: of 1e5 as much as _BEYOND
 _FACTORS = (10.0, 60.0, 1000.0)  # usual factors between units that are mixed up; by unit these instead
 _OF_UNIT: Mapping[str, tuple[float, ...]] = {
     "rad": (180 / math.pi,),
@@ -29,29 +42,89 @@ _OFFSET = 0.02  # share of a signal's range below which an offset of its regress
 
 
 @dataclass(frozen=True)
-class _Pair:
-    """A measured signal and the simulated one, of all logs in a row, each log without its mean.
+class _Log:
+    """A measured signal and the simulated one in a log, each without its mean.
 
     Args:
-        signal: the signal of the data set.
-        source: source of the first log.
-        unit: unit of the simulated signal.
+        source, name: of the log; empty for several logs in a row.
         measured: (n,).
         own: (n,) simulated.
-        levels: means of both in the first log.
+        levels: means of both.
     """
 
-    signal: MeasuredSignal
     source: str
-    unit: str
+    name: str
     measured: Array
     own: Array
     levels: tuple[float, float]
+
+    @cached_property
+    def correlation(self) -> float:
+        """Of both; 0 if one of them is constant."""
+        return _correlation(self.measured, self.own)
+
+    @property
+    def follows(self) -> bool:
+        """Whether it follows the model, or its negative."""
+        return abs(self.correlation) >= _FOLLOWS
+
+    @property
+    def is_tone(self) -> bool:
+        """Whether the simulated signal is one sine of several periods."""
+        power = np.abs(np.fft.rfft(self.own * np.hanning(self.own.size))) ** 2
+        peak = int(np.argmax(power))
+        line = float(power[max(peak - _LOBE, 0) : peak + _LOBE + 1].sum())
+        return peak > _LOBE and line > (1 - _TONE) * float(power.sum())
 
     @property
     def gain(self) -> float:
         """Measured over simulated signal, by least squares."""
         return float(self.measured @ self.own / (self.own @ self.own))
+
+    @property
+    def ratio(self) -> float | None:
+        """Measured over simulated swing, whatever their levels and shapes; None if either may be noise or rounding."""
+        swings = []
+        for values in (self.measured, self.own):
+            low, high = np.quantile(values, (_TAIL, 1 - _TAIL))
+            if not high - low > _CLEAR * seen_noise(values):
+                return None
+            swings.append(float(high - low))
+        return swings[0] / swings[1]
+
+
+@dataclass(frozen=True)
+class _Pair:
+    """A measured signal and the simulated one in all logs.
+
+    Args:
+        signal: the signal of the data set.
+        unit: unit of the simulated signal.
+        logs: those that have both.
+    """
+
+    signal: MeasuredSignal
+    unit: str
+    logs: tuple[_Log, ...]
+
+    @cached_property
+    def whole(self) -> _Log:
+        """All logs in a row, with the levels of the first."""
+        return _in_a_row(self.logs)
+
+    @property
+    def telling(self) -> tuple[_Log, ...]:
+        """Logs to judge one by one; all in a row where none follows by itself, and all together do."""
+        size = [float(np.std(log.own)) for log in self.logs]
+        able = [
+            log for log, own in zip(self.logs, size, strict=True) if own > _MOVES * max(size) and np.ptp(log.measured)
+        ]
+        return (self.whole,) if self.whole.follows and not any(log.follows for log in able) else tuple(able)
+
+
+def _in_a_row(logs: Sequence[_Log]) -> _Log:
+    measured, own = (np.concatenate([getattr(log, name) for log in logs]) for name in ("measured", "own"))
+    return _Log("", "", measured, own, logs[0].levels)
 
 
 def against_model(dataset: Dataset, answers: Mapping[str, Record]) -> Iterator[Finding]:
@@ -68,7 +141,7 @@ def against_model(dataset: Dataset, answers: Mapping[str, Record]) -> Iterator[F
             swapped |= {one.signal.name, other.signal.name}
             names = {one.signal.name: other.signal.name, other.signal.name: one.signal.name}
             told = {"signal": one.signal.name, "other": other.signal.name}
-            yield finding(FindingCode.SWAPPED, one.source, Rename(names), correlation=found, **told)
+            yield finding(FindingCode.SWAPPED, one.logs[0].source, Rename(names), correlation=found, **told)
     for pair in pairs:
         if pair.signal.name not in swapped:
             yield from _of_signal(pair)
@@ -83,12 +156,14 @@ def names_beside(dataset: Dataset, model: Model, known: Collection[str] = ()) ->
     logs = [record for record in dataset.logs() if isinstance(record.data, Record)]
     if not logs:
         return
-    names = {v.name for v in model.variables}
+    variables = {v.name: v for v in model.variables}
     sides = {side: [v for v in model.variables if v.causality == side] for side in ("input", "output")}
     for signal in dataset.signals:
-        if signal.variable not in names:
+        variable = variables.get(signal.variable)
+        if variable is None or not variable.moves:
             own = ", ".join(v.name for v in sides[signal.role]) or f"its {signal.role}s, of which there are none"
-            yield finding(FindingCode.NOT_IN_MODEL, logs[0].source, signal=signal.name, known=own)
+            more = {"still": variable.name} if variable else {}
+            yield finding(FindingCode.NOT_IN_MODEL, logs[0].source, signal=signal.name, known=own, **more)
     driven = [signal.variable for signal in dataset.signals if signal.role == "input"]
     rates = model.rate_inputs(driven)
     for one in sides["input"]:
@@ -99,7 +174,7 @@ def names_beside(dataset: Dataset, model: Model, known: Collection[str] = ()) ->
 
 def _pair(dataset: Dataset, answers: Mapping[str, Record], signal: MeasuredSignal) -> _Pair | None:
     """The pair of one signal; None if it was not simulated, or if the measured or simulated signal is constant."""
-    measured, own, levels, first, unit = [], [], None, "", ""
+    logs, unit = [], ""
     for record in dataset.logs():
         log, answer = record.data, answers.get(record.source)
         if not isinstance(log, Record) or answer is None or signal.name not in log.names:
@@ -110,58 +185,101 @@ def _pair(dataset: Dataset, answers: Mapping[str, Record], signal: MeasuredSigna
         there = np.isfinite(log[signal.name]) & (log.time >= answer.time[0]) & (log.time <= answer.time[-1])
         if np.count_nonzero(there) < 2:
             continue
-        y, s = log[signal.name][there], np.interp(log.time[there], answer.time, answer[name])
-        unit, first = answer.units[answer.names.index(name)], first or record.source
-        levels = levels or (float(y.mean()), float(s.mean()))
-        measured.append(y - y.mean())
-        own.append(s - s.mean())
-    if levels is None or not np.ptp(np.concatenate(measured)) or not np.ptp(np.concatenate(own)):
-        return None
-    return _Pair(signal, first, unit, np.concatenate(measured), np.concatenate(own), levels)
+        time, y = log.time[there], log[signal.name][there]
+        s = np.interp(time, answer.time, answer[name])
+        unit, levels = unit or answer.units[answer.names.index(name)], (float(y.mean()), float(s.mean()))
+        logs.append(_Log(record.source, short_name(dataset, record), y - levels[0], s - levels[1], levels))
+    pair = _Pair(signal, unit, tuple(logs))
+    return pair if logs and np.ptp(pair.whole.measured) and np.ptp(pair.whole.own) else None
 
 
 def _correlation(one: Array, other: Array) -> float:
-    return float(one @ other / math.sqrt((one @ one) * (other @ other)))
+    size = math.sqrt((one @ one) * (other @ other))
+    return float(one @ other) / size if size else 0.0
 
 
 def _swapped(one: _Pair, other: _Pair) -> float | None:
     """The smaller correlation with the other's simulated signal, if both far exceed those with their own; else None."""
-    if one.signal.unit != other.signal.unit or one.own.size != other.own.size:
+    a, b = one.whole, other.whole
+    if one.signal.unit != other.signal.unit or a.own.size != b.own.size:
         return None
-    crossed = abs(_correlation(one.measured, other.own)), abs(_correlation(other.measured, one.own))
-    straight = abs(_correlation(one.measured, one.own)), abs(_correlation(other.measured, other.own))
+    crossed = abs(_correlation(a.measured, b.own)), abs(_correlation(b.measured, a.own))
+    straight = abs(a.correlation), abs(b.correlation)
     if min(crossed) < _FOLLOWS or 2 - sum(crossed) > 0.5 * (2 - sum(straight)):
         return None
     return min(crossed)
 
 
 def _of_signal(pair: _Pair) -> Iterator[Finding]:
-    signal, correlation = pair.signal, _correlation(pair.measured, pair.own)
-    if abs(correlation) < _FOLLOWS:
-        return
+    signal, logs = pair.signal, pair.telling
     known = conversion(pair.unit, signal.unit)
     if known is None:
-        if pair.unit in UNITS and signal.unit in UNITS:
+        if pair.unit in UNITS and signal.unit in UNITS and pair.whole.follows:
             yield _calibrated(pair)
         return
-    if correlation < 0:
-        yield finding(FindingCode.SIGN, pair.source, Flip((signal.name,)), signal=signal.name, correlation=correlation)
-    gain = abs(pair.gain) / known[0]
-    factors = _OF_UNIT.get(signal.unit, _FACTORS)
-    near = [f for one in factors for f in (one, 1 / one) if 1 / _NEAR < gain / f < _NEAR]
-    if near:
-        factor = min(near, key=lambda f: abs(math.log(gain / f)))
-        cure = Scaled(signal.name, float(f"{1 / factor:.10g}"))
-        yield finding(FindingCode.FACTOR, pair.source, cure, signal=signal.name, factor=factor)
+    most = max((abs(log.correlation) for log in logs), default=0.0)
+    least = min(_FOLLOWS, _ALIKE * most) if most >= _FOLLOWS else math.inf
+    right = any(log.correlation >= least for log in logs)
+    wrong = [log for log in logs if log.correlation <= -least]
+    if right:
+        wrong = [log for log in wrong if log.correlation <= -_TURNED or not log.is_tone]
+    if wrong:
+        some = tuple(log.name for log in wrong) if right else ()
+        cure, how = Flip((signal.name,), some), _in_a_row(wrong).correlation
+        yield _of_logs(FindingCode.SIGN, pair, wrong, cure, signal=signal.name, correlation=how)
+    slips = _slips(logs, known[0], _OF_UNIT.get(signal.unit, _FACTORS))
+    for factor in dict.fromkeys(slips.values()):
+        if factor != 1:
+            those = [log for log in logs if slips.get(log.source) == factor]
+            some = tuple(log.name for log in those) if len({*slips.values()}) > 1 else ()
+            scaled = Scaled(signal.name, float(f"{1 / factor:.10g}"), logs=some)
+            yield _of_logs(FindingCode.FACTOR, pair, those, scaled, signal=signal.name, factor=factor)
+
+
+def _of_logs(code: FindingCode, pair: _Pair, logs: Sequence[_Log], cure: Flip | Scaled, **told: float | str) -> Finding:
+    """A finding of some logs; it names them if its cure does."""
+    more = {"logs": ", ".join(cure.logs)} if cure.logs else {}
+    return finding(code, logs[0].source or pair.logs[0].source, cure, **told, **more)
+
+
+def _slips(logs: Sequence[_Log], unit: float, factors: tuple[float, ...]) -> dict[str, float]:
+    """Source of a log that can tell -> the factor by which its signal is wrong, 1 if it is right.
+
+    Args:
+        unit: of the simulated signal in that of the measured one.
+        factors: that are known.
+    """
+    every = [f for one in factors for f in (one, 1 / one)]
+    far = [f for f in every if abs(math.log(f)) > math.log(_BEYOND)]
+    found, rough = dict[str, float](), dict[str, float]()
+    for log in logs:
+        gain, ratio = math.log(abs(log.gain) / unit) if log.follows else math.inf, log.ratio
+        size = 0.0 if ratio is None else math.log(ratio / unit)
+        factor = _closest(every, gain)
+        if abs(gain - math.log(factor)) < math.log(_NEAR):
+            found[log.source] = factor
+        elif abs(size) > math.log(_BEYOND):
+            factor = _closest(far, size)
+            if abs(size - math.log(factor)) <= _ROUGH * abs(math.log(factor)):
+                rough[log.source] = factor
+        elif log.follows or ratio is not None:
+            found[log.source] = 1.0
+    if 1.0 in found.values():  # a plant that hardly moves in one log, as in its dead band, may be measured right there
+        rough = {source: f for source, f in rough.items() if abs(math.log(f)) > 2 * math.log(_BEYOND)}
+    return found | rough
+
+
+def _closest(factors: Sequence[float], size: float) -> float:
+    return min(factors, key=lambda factor: abs(size - math.log(factor)))
 
 
 def _calibrated(pair: _Pair) -> Finding:
     """Finding of a raw sensor value, with factor and offset to the model's quantity by regression."""
-    signal = pair.signal
-    factor = float(f"{1 / pair.gain:.4g}")
-    offset = pair.levels[1] - factor * pair.levels[0]
-    small = _OFFSET * float(np.ptp(pair.own))
+    signal, whole = pair.signal, pair.whole
+    factor = float(f"{1 / whole.gain:.4g}")
+    offset = whole.levels[1] - factor * whole.levels[0]
+    small = _OFFSET * float(np.ptp(whole.own))
     offset = 0.0 if abs(offset) < small else float(f"{offset:.4g}")
     cure = Scaled(signal.name, factor, offset, pair.unit, signal.unit)
     told = {"signal": signal.name, "unit": signal.unit, "wanted": pair.unit}
-    return finding(FindingCode.QUANTITY, pair.source, cure, factor=factor, **told)
+    return finding(FindingCode.QUANTITY, pair.logs[0].source, cure, factor=factor, **told)

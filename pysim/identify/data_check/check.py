@@ -15,7 +15,7 @@ from pysim.identify.data_check.folding import share_near_nyquist
 from pysim.identify.data_check.gaps import whole_rows
 from pysim.identify.data_check.swing import swing
 from pysim.identify.logged import logged_wave
-from pysim.io.prepare import DropOutliers, Exclude, FillGaps, Resample, fill_of, outliers, short_name
+from pysim.io.prepare import DropOutliers, Exclude, FillGaps, Resample, Step, fill_of, outliers, short_name
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Model, Record
 from pysim.types.record_kind import CHIRP, KINDS
 
@@ -95,9 +95,27 @@ def check_dataset(
     """
     limits = {signal.name: _extremes(dataset, signal.name) for signal in dataset.signals}
     fill = fill_of(dataset)
-    records = tuple(_check(dataset, record, limits, fill) for record in dataset.records)
+    records = _some_left(tuple(_check(dataset, record, limits, fill) for record in dataset.records))
     names = names_beside(dataset, model, known) if model else ()
     return DataCheck(dataset, records, (*names, *against_model(dataset, answers or {})))
+
+
+def _some_left(records: tuple[RecordCheck, ...]) -> tuple[RecordCheck, ...]:
+    """The same without steps that leave out a whole log, where no log would be left after all of them."""
+    if not all(any(_is_whole(step) for found in record.findings for step in found.cure) for record in records):
+        return records
+    return tuple(
+        replace(
+            record,
+            findings=tuple(replace(f, cure=tuple(s for s in f.cure if not _is_whole(s))) for f in record.findings),
+        )
+        for record in records
+    )
+
+
+def _is_whole(step: Step) -> bool:
+    """Whether a step leaves out a log from end to end."""
+    return isinstance(step, Exclude) and step.start is None and step.stop is None
 
 
 def _extremes(dataset: Dataset, name: str) -> tuple[float, float]:
@@ -190,7 +208,7 @@ def _of_output(
         cuts = _joined(flat, time.size)
         cure = [Exclude(own, *map(float, (time[a], time[b - 1]))) for a, b in cuts]
         if len(cuts) > _CUTS or cuts == [(0, time.size)]:
-            cure = [Exclude(own)] if len(dataset.logs()) > 1 else []
+            cure = [Exclude(own)]
         yield finding(
             FindingCode.CLIPPED,
             record.source,

@@ -13,15 +13,15 @@ from pysim.types._frozen import FrozenMapping
 class FindingCode(Enum):
     """Kind of a finding, in the order of correction. The comments list the keys of `Finding.values`."""
 
-    NOT_IN_MODEL = "not_in_model"  # signal, known (names): the model has no such variable, so it is not compared
+    NOT_IN_MODEL = "not_in_model"  # signal, known (names), maybe still (name of a parameter): it is not compared
     NOT_DRIVEN = "not_driven"  # signal, value, unit: an input of the model that no signal drives
     EMPTY = "empty"  # signal, count, start (s): cells without a number
     GAP = "gap"  # count, start, length (s): samples were lost
     QUANTITY = "quantity"  # signal, unit, wanted, maybe factor: the model counts it in another quantity
     SWAPPED = "swapped"  # signal, other, maybe correlation: each follows the model's answer for the other one
-    SIGN = "sign"  # signal, correlation: it moves against the model's answer
-    TURNED_INPUT = "turned_input"  # signal, outputs: these move with the model's answer once the input is turned
-    FACTOR = "factor"  # signal, factor: it is so many times the model's answer
+    SIGN = "sign"  # signal, correlation, maybe logs (names): it moves against the model's answer
+    TURNED_INPUT = "turned_input"  # signal, outputs, maybe logs: these move with the answer once the input is turned
+    FACTOR = "factor"  # signal, factor, maybe logs: it is so many times the model's answer
     CLIPPED = "clipped"  # signal, count, low, high, unit: it stands at the end of its range
     OUTLIERS = "outliers"  # signal, count, start (s): single samples far off their neighbours
     UNEVEN = "uneven"  # jitter (share of the interval), rate (Hz)

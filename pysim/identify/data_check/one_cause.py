@@ -11,10 +11,11 @@ import numpy as np
 
 from pysim.identify.data_check.check import DataCheck
 from pysim.identify.data_check.finding import Finding, FindingCode, finding
-from pysim.io.prepare import Flip, Rename, Step
+from pysim.io.prepare import Flip, Rename, Step, logs_called
 from pysim.types import Dataset, Record
 
 _AS_GOOD = 2.0  # misfit with the step over the one with all these outputs turned, up to which it is the likelier cause
+_BETTER = 0.5  # the same where one output is turned alone, as this is as likely a cause
 _LEVEL = 0.1  # largest misfit of two signals with their names swapped, over the one without, that shows the swap
 
 Checked = tuple[DataCheck, Mapping[str, Record]]
@@ -31,16 +32,23 @@ def with_one_cause(found: DataCheck, answers: Mapping[str, Record], check: Calla
     found = _swapped_by_level(found, answers)
     signs = [one for one in found.beside_model if one.code is FindingCode.SIGN]
     outputs, dataset = tuple(str(one.values["signal"]) for one in signs), found.dataset
-    if len(signs) < 2 or dataset.responses():
+    some = {step.logs for one in signs for step in one.cure if isinstance(step, Flip)}
+    if len(some) != 1 or dataset.responses():
         return found
-    steps: list[Any] = [Flip((one.name,)) for one in dataset.signals if one.role == "input"]
-    steps += _swaps(dataset, outputs)
-    turned = _misfit(Flip(outputs).apply(dataset), answers)
-    best, result = min(_misfit(dataset, answers), _AS_GOOD * turned), found
+    (logs,) = some
+    those = {record.source for name in logs for record in logs_called(dataset, name)} or {*answers}
+    steps: list[Any] = [Flip((one.name,), logs) for one in dataset.signals if one.role == "input"]
+    steps += [] if logs else _swaps(dataset, outputs)
+
+    def misfit(data: Dataset, its: Mapping[str, Record]) -> float:
+        return _misfit(data, {source: answer for source, answer in its.items() if source in those})
+
+    allowed = _AS_GOOD if len(signs) > 1 else _BETTER
+    best, result = min(misfit(dataset, answers), allowed * misfit(Flip(outputs, logs).apply(dataset), answers)), found
     for step in steps:
         after, its = check(step)
         after = _swapped_by_level(after, its)
-        size = _misfit(after.dataset, its)
+        size = misfit(after.dataset, its)
         if size < best and not any(one.code is FindingCode.SIGN for one in after.beside_model):
             best, cause = size, _cause(step, signs[0].source, outputs)
             result = replace(found, beside_model=(cause, *after.beside_model))
@@ -72,7 +80,9 @@ def _swaps(dataset: Dataset, outputs: Iterable[str]) -> list[Rename]:
 
 def _cause(step: Flip | Rename, source: str, outputs: tuple[str, ...]) -> Finding:
     if isinstance(step, Flip):
-        return finding(FindingCode.TURNED_INPUT, source, step, signal=step.signals[0], outputs=", ".join(outputs))
+        told = {"signal": step.signals[0], "outputs": ", ".join(outputs)}
+        told |= {"logs": ", ".join(step.logs)} if step.logs else {}
+        return finding(FindingCode.TURNED_INPUT, source, step, **told)
     one, other = step.names
     return finding(FindingCode.SWAPPED, source, step, signal=one, other=other)
 

@@ -65,6 +65,11 @@ def signal_noise(
     white = white_floor(logs, settings)
     if not white:
         seen = [value for log in logs if math.isfinite(value := seen_noise(log)) and value > 0]
+        if not seen and not any(np.ptp(log) for log in logs):
+            raise BadInput(
+                f"signal {signal.name!r} stands still in every log, so nothing is known of what moves it; log a test "
+                "that excites it, or give noise = a number"
+            )
         if not seen:
             raise BadInput(
                 f"signal {signal.name!r}: the logs show no noise, and none is specified; give noise = a number"

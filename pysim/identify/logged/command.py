@@ -20,8 +20,9 @@ def logged_command(record: MeasuredRecord, column: str, hold: Command | None = N
     A stepped sine or chirp has its closed form, fitted to the logged column, and straight lines through the samples
     before and after. Steps hold each sample until the next. Any other command is interpolated by natural cubic splines
     from jump to jump. A change is a jump if the command was exactly constant for three samples before or after it, and
-    the change is more than three times the one on its other side; the jump is at the first sample that shows it. If
-    noise hides this, the spline overshoots a jump by a tenth. Before the first sample, the command has its value.
+    the change is more than three times the one on its other side, and more than a digit of rounding; the jump is at the
+    first sample that shows it. If noise hides this, the spline overshoots a jump by a tenth. Before the first sample,
+    the command has its value.
 
     Args:
         record: a log over time.
@@ -45,8 +46,10 @@ def logged_command(record: MeasuredRecord, column: str, hold: Command | None = N
     return _from_jump_to_jump(time, values)
 
 
-# Smallest ratio of a jump to the change next to it.
-_JUMP = 3.0
+_JUMP = 3.0  # smallest ratio of a jump to the change next to it
+_FINE = 0.01  # largest share of a rounded command's range that one digit is; coarser ones run in steps
+_ROUNDED = 20  # fewest changes of a command whose smallest one counts as a digit
+_DIGIT = 1.5  # digits: a larger change is more than rounding
 
 
 def _from_jump_to_jump(time: Array, values: Array) -> Signal:
@@ -67,7 +70,7 @@ def _from_jump_to_jump(time: Array, values: Array) -> Signal:
 
 
 def jumps(values: Array) -> list[int]:
-    """Indices of the first sample after each jump of a command (n_t,)."""
+    """Indices of the first sample after each jump of a command (n_t,); a change of one digit of rounding is none."""
     change = np.abs(np.diff(values))
     if change.size < 3:
         return []
@@ -76,7 +79,16 @@ def jumps(values: Array) -> list[int]:
     after = np.append(still[2:], False)
     last, following = np.append(0.0, change[:-1]), np.append(change[1:], 0.0)
     jumped = (before & (change > _JUMP * following)) | (after & (change > _JUMP * last))
-    return (np.flatnonzero(jumped & (change > 0)) + 1).tolist()
+    return (np.flatnonzero(jumped & (change > _DIGIT * _digit(values, change))) + 1).tolist()
+
+
+def _digit(values: Array, change: Array) -> float:
+    """The digit to which a command (n_t,) was rounded; 0 if it has few changes or is rounded coarsely."""
+    moved = change[change > 0]
+    if moved.size < _ROUNDED:
+        return 0.0
+    digit = float(moved.min())
+    return digit if digit <= _FINE * float(np.ptp(values)) else 0.0
 
 
 def _around(wave: LoggedWave, time: Array, values: Array) -> Signal:

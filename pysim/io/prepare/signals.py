@@ -21,15 +21,17 @@ class Flip:
 
     Args:
         signals: their names.
+        logs: names of those to turn them in; all where there are none.
     """
 
     word: ClassVar[str] = "flip"
     star: ClassVar[str] = "signals"
     signals: tuple[str, ...]
+    logs: tuple[str, ...] = ()
 
     def apply(self, dataset: Dataset) -> Dataset:
         for name in signals_of(dataset, self.signals):
-            dataset = _scaled(dataset, name, Scale(dataset.signal(name).unit, -1.0))
+            dataset = _scaled(dataset, name, Scale(dataset.signal(name).unit, -1.0), self.logs)
         return dataset
 
 
@@ -43,6 +45,7 @@ class Scaled:
         offset: added to that, in `unit`.
         unit: of the product; that of the signal where empty.
         of: of the values; that of the signal where empty.
+        logs: names of those to scale it in, where it keeps its unit and noise; all where there are none.
     """
 
     word: ClassVar[str] = "scale"
@@ -52,6 +55,7 @@ class Scaled:
     offset: float = 0.0
     unit: str = ""
     of: str = ""
+    logs: tuple[str, ...] = ()
 
     def apply(self, dataset: Dataset) -> Dataset:
         own = dataset.signal(self.signal).unit
@@ -65,14 +69,20 @@ class Scaled:
             raise BadInput(f"{self.signal}: a factor of 0 leaves nothing; give another")
         per, zero = known
         new = Scale.of(self.unit or self.of or own, self.factor, self.offset)
-        return _scaled(dataset, self.signal, Scale(new.unit, new.gain * per, new.number(zero)))
+        if self.logs and new.unit != own:
+            raise BadInput(f"{self.signal} is in {own} in the other logs; scale it in all of them, or keep its unit")
+        return _scaled(dataset, self.signal, Scale(new.unit, new.gain * per, new.number(zero)), self.logs)
 
 
-def _scaled(dataset: Dataset, name: str, scale: Scale) -> Dataset:
-    """A data set whose signal is in another measure, with its noise and what its test says of it."""
+def _scaled(dataset: Dataset, name: str, scale: Scale, logs: tuple[str, ...]) -> Dataset:
+    """A data set whose signal is in another measure, with its noise and what its test says of it.
+
+    Args:
+        logs: names of those that alone are; the signal's noise is then that of the others.
+    """
     refuse_tables(dataset, "a new scale")
-    signal = dataset.signal(name)
-    noise, resolution = (None if v is None else abs(scale.gain) * v for v in (signal.noise, signal.resolution))
+    signal, gain = dataset.signal(name), 1.0 if logs else abs(scale.gain)
+    noise, resolution = (None if v is None else gain * v for v in (signal.noise, signal.resolution))
     changed = replace(signal, unit=scale.unit, noise=noise, resolution=resolution)
 
     def change(record: MeasuredRecord, log: Record) -> Iterator[MeasuredRecord]:
@@ -90,7 +100,7 @@ def _scaled(dataset: Dataset, name: str, scale: Scale) -> Dataset:
         yield replace(moved, data=replace(moved.data, units=units))
 
     signals = tuple(changed if one is signal else one for one in dataset.signals)
-    return each_log(replace(dataset, signals=signals), change)
+    return each_log(replace(dataset, signals=signals), change, logs)
 
 
 @dataclass(frozen=True)

@@ -12,7 +12,7 @@ from pysim.types import UNITS, Dataset
 
 _WORDS: Mapping[FindingCode, str] = {
     FindingCode.NOT_IN_MODEL: (
-        "the model has no {signal}, so a fit will refuse it; rename it to one of {known}, or load the log without it"
+        "the model has no {there}, so a fit will refuse it; rename it to one of {known}, or load the log without it"
     ),
     FindingCode.NOT_DRIVEN: (
         "no signal drives the model's input {signal}, which stays at {value:g} {unit}; name the column that does, "
@@ -22,11 +22,13 @@ _WORDS: Mapping[FindingCode, str] = {
     FindingCode.GAP: "{gaps} of {length:.3g} s after {start:.6g} s",
     FindingCode.QUANTITY: "{signal} is in {unit}, and the model counts it in {wanted}; {scaled}",
     FindingCode.SWAPPED: "{signal} and {other} seem to be swapped: each follows the model's answer for the other",
-    FindingCode.SIGN: "{signal} moves against the model's answer (correlation {correlation:.2f}): a turned sign?",
-    FindingCode.TURNED_INPUT: (
-        "{outputs} move against the model's answer, and with it if {signal} is turned: its sign?"
+    FindingCode.SIGN: (
+        "{signal} moves against the model's answer{where} (correlation {correlation:.2f}): a turned sign?"
     ),
-    FindingCode.FACTOR: "{signal} is about {factor:.4g} times the model's answer: another unit?",
+    FindingCode.TURNED_INPUT: (
+        "{outputs} move against the model's answer{where}, and with it if {signal} is turned: its sign?"
+    ),
+    FindingCode.FACTOR: "{signal} is about {factor:.4g} times the model's answer{where}: another unit?",
     FindingCode.CLIPPED: (
         "{samples} of {signal} at its smallest or largest value ({low:g}, {high:g} {unit}): clipped?"
     ),
@@ -68,12 +70,16 @@ _SHOWN = 4  # logs
 
 def sentence(found: Finding) -> str:
     """What is found, without its log."""
-    words: dict[str, float | str] = dict(found.values)
+    words: dict[str, float | str] = {"where": "", **found.values}
+    if "logs" in words:
+        words["where"] = f" in {words['logs']} alone"
     if "count" in words:
         words["samples"] = counted(int(words["count"]), "sample")
     if found.code is FindingCode.QUANTITY:
         words["to"] = words["wanted"] if words["wanted"] in UNITS else "1"
         words["scaled"] = (_MEASURED if "factor" in words else _KNOWN if found.cure else _OPEN).format(**words)
+    if found.code is FindingCode.NOT_IN_MODEL:
+        words["there"] = f"{words['signal']} that moves" if "still" in words else words["signal"]
     if found.code is FindingCode.GAP:
         count = int(words["count"])
         words["gaps"] = f"{count} gaps in time, the longest" if count > 1 else "a gap in time,"

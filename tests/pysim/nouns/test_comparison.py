@@ -129,3 +129,13 @@ def test_noise_that_is_not_specified_is_one_number(mass: Model, data: Dataset) -
     why = pysim.diagnose(found, effects=["toy.friction", "toy.bias"])
     assert why.steps["fitted"][1] == pytest.approx(found.signals["x noise"][0], rel=0.1)  # the least of its models'
     assert why.steps["fitted"][-1] == pytest.approx(1.0, abs=0.06)
+
+
+def test_logs_in_which_nothing_moves_are_refused_for_that(mass: Model) -> None:
+    """No noise at all can also be seen on a smooth log, whose cure is another."""
+    still = {"t": np.arange(100) / 100, "F [N]": np.ones(100), "x [m]": np.zeros(100)}
+    for use in (pysim.compare, pysim.fit):
+        with pytest.raises(BadInput, match="log a test that excites it"):
+            use(mass, pysim.load(still, inputs="F", outputs="x", time="t"))
+    known = pysim.compare(mass, pysim.load(still, inputs="F", outputs="x", time="t", noise={"x": 1e-4}))
+    assert np.isfinite(known.table["rms"]).all()

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.io import read_dataset
+from pysim.io.prepare import step_typed
 from pysim.nouns.data import Data, load
 from pysim.types import BadInput, Record
 
@@ -70,6 +71,24 @@ def test_names_may_stand_in_a_list_and_other_kinds_are_refused() -> None:
     ):
         with pytest.raises(BadInput, match=said):
             ask()  # type: ignore[no-untyped-call]
+
+
+def test_some_logs_alone_are_turned_and_scaled(tmp_path: Path) -> None:
+    """The word of the command line does the same, and a saved folder does it again."""
+    raw = logs().fill_gaps(0.03)
+    for k, (data, gain) in enumerate(
+        (
+            (raw.flip("x", logs="run2"), -1.0),
+            (raw.after(step_typed("flip:x,logs=run2")), -1.0),
+            (raw.scale("x", 10.0, logs=["run2"]), 10.0),
+            (raw.after(step_typed("scale:x,factor=10,logs=run2")), 10.0),
+        )
+    ):
+        for one in (data, load(data.save(tmp_path / str(k)))):
+            np.testing.assert_allclose(log_of(one, "run1")["x"], log_of(raw, "run1")["x"], rtol=1e-12)
+            np.testing.assert_allclose(log_of(one, "run2")["x"], gain * log_of(raw, "run2")["x"], rtol=1e-12)
+            assert one.now.signal("x").noise == pytest.approx(2e-5)
+            assert one.to_dataframe().columns.tolist() == raw.to_dataframe().columns.tolist()
 
 
 def test_a_saved_folder_reads_as_the_same_data(tmp_path: Path) -> None:

@@ -76,6 +76,43 @@ def test_the_cause_is_named_once(level: float, turned: str, swapped: bool, lines
     assert all(step_name in repr(check) for step_name in lines)
 
 
+@pytest.mark.parametrize(
+    ("turned", "line"),
+    [("u", 'data = data.flip("u", logs=["run2"])'), ("x", 'data = data.flip("x", logs=["run2"])')],
+)
+def test_a_log_with_another_sign_than_the_others_is_named_once(turned: str, line: str) -> None:
+    plant = Cylinder(3e6)
+    frames = {}
+    for name, own in (("run1", ""), ("run2", turned), ("run3", "")):
+        frames[name] = logged(plant, own).to_dataframe().droplevel(0).reset_index()
+    data = load(frames, inputs="u", outputs=list(OUTPUTS), time="time [s]")
+    check = data.check(plant)
+    assert list(check.lines) == [line]
+    (found,) = check.findings
+    assert data.after(*found.cure).check(plant).ok
+
+
+@pytest.mark.parametrize("turned", ["u", "v", ""])
+def test_an_output_that_follows_too_little_to_tell_its_sign_still_tells_whose_sign_is_turned(turned: str) -> None:
+    """The speed follows the model, and the force is as large again for what the model lacks."""
+
+    class Mass:
+        def simulate(self, log: MeasuredRecord) -> Record:
+            assert isinstance(log.data, Record)
+            v = np.convolve(log.data["u"], np.exp(-np.arange(200) / 20) / 20)[: TIME.size]
+            return Record(TIME, np.column_stack([v, np.gradient(v, TIME)]), ("v", "F"), ("m/s", "N"))
+
+    drive = load({"t": TIME, "u [1]": COMMAND, "v [m/s]": COMMAND}, inputs="u", outputs="v", time="t")["log"]
+    answer = Mass().simulate(drive)
+    own, rest = answer["F"], np.roll(answer["F"], 700)
+    rest = rest - own * (rest @ own) / (own @ own)
+    force = own + 1.2 * rest * np.std(own) / np.std(rest)  # a correlation of 0.64
+    columns = {"u [1]": COMMAND, "v [m/s]": answer["v"] + 1e-3 * NOISE[:, 0], "F [N]": force}
+    frame = {"t": TIME} | {name: -own if name[0] == turned else own for name, own in columns.items()}
+    data = load(frame, inputs="u", outputs=["v", "F"], time="t")
+    assert list(data.check(Mass()).lines) == ([f'data = data.flip("{turned}")'] if turned else [])
+
+
 def test_levels_tell_a_swap_though_the_model_does_not_follow() -> None:
     poor = Cylinder(3e6, follows=False)
     assert logged(Cylinder(3e6)).check(poor).ok

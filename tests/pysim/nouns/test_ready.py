@@ -147,16 +147,18 @@ def test_what_is_measured_and_what_is_driven_is_held_against_the_model() -> None
     mass = pysim.model("Toy.Mass", library=library())
     columns = {"t": TIME, "F [N]": FORCE, "x [m]": PLACE, "T [degC]": 20 + PLACE}
     whole = load(columns, inputs="F", outputs=["x", "T"], time="t")
-    (found,) = whole.check(mass).findings
+    names = {FindingCode.NOT_IN_MODEL, FindingCode.NOT_DRIVEN}
+    (found,) = [one for one in whole.check(mass).findings if one.code in names]
     assert (found.code, found.values["signal"]) == (FindingCode.NOT_IN_MODEL, "T")
     said = " ".join(repr(whole.check(mass)).split())
     assert "the model has no T, so a fit will refuse it; rename it to one of x, v" in said
+    still = load(columns, inputs="F", outputs=["x", "T"], time="t", variables={"x": "m"})
+    assert {one.values["signal"] for one in still.check(mass).findings} == {"x", "T"}  # m is a parameter
     other = load({"t": TIME, "push [N]": FORCE, "x [m]": PLACE}, inputs="push", outputs="x", time="t")
     codes = {one.code: one.values["signal"] for one in other.check(mass).findings}
     assert codes == {FindingCode.NOT_IN_MODEL: "push", FindingCode.NOT_DRIVEN: "F"}
     assert FindingCode.NOT_DRIVEN not in {one.code for one in other.check(mass.set(F=1.0)).findings}
     right = load({"t": TIME, "F [N]": FORCE, "x [m]": PLACE}, inputs="F", outputs="x", time="t")
-    names = {FindingCode.NOT_IN_MODEL, FindingCode.NOT_DRIVEN}
     assert not names & {one.code for one in right.check(mass).findings}
 
 

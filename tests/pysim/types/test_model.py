@@ -53,7 +53,7 @@ def test_a_signal_shows_a_variable_of_its_unit_only() -> None:
     assert own.measured(shown("c", "output", "N.m", "y"), "the plan").name == "y"
     assert own.measured(shown("c", "output", "Nm", "y"), "the plan").name == "y"  # the same, spoken
     with pytest.raises(
-        BadInput, match=r"of the plan: y is no input but of causality output in m\.fmu; name the command"
+        BadInput, match=r"of the plan: y is no input but of causality output in m\.fmu; its inputs: u; "
     ):
         own.measured(shown("c", "input", "N.m", "y"), "the plan")
 
@@ -88,18 +88,56 @@ def test_a_model_that_declares_no_units_counts_in_those_of_the_data() -> None:
 
 
 @pytest.mark.parametrize(
-    ("role", "name", "words"),
+    ("role", "name", "words", "likely"),
     [
-        ("output", "alfaPercent", '; near it: alphaPercent; write variable = "alphaPercent" below [signals."Weg 1"]'),
-        ("output", "zz", '; its outputs: alphaPercent, p; write variable = "..." below [signals."Weg 1"]'),
-        ("input", "zz", '; its inputs: (none); write variable = "..." below [signals."Weg 1"]'),
+        ("output", "alfaPercent", "near it: alphaPercent", "alphaPercent"),
+        ("output", "zz", "its outputs: alphaPercent, p", "..."),
+        ("input", "zz", "its inputs: (none)", "..."),
     ],
 )
-def test_a_variable_that_is_not_there_is_said_with_its_signal_and_the_cure(role: str, name: str, words: str) -> None:
+def test_a_variable_that_is_not_there_is_said_with_its_signal_and_the_cure(
+    role: str, name: str, words: str, likely: str
+) -> None:
     own = model(variable("alphaPercent", "output", "%"), variable("p", "output", "Pa"), variable("q", "local"))
     with pytest.raises(BadInput) as caught:
         own.measured(shown("Weg 1", role, "%", name), "data set 'x'")
-    assert str(caught.value) == f"signal 'Weg 1' of data set 'x': m.fmu has no variable '{name}'{words}"
+    said = f"signal 'Weg 1' of data set 'x': m.fmu has no variable '{name}'; {words}"
+    cure = f'variables={{"Weg 1": "{likely}"}} in pysim.load, or variable = "{likely}" below [signals."Weg 1"]'
+    assert str(caught.value) == f"{said}; write {cure}"
+
+
+@pytest.mark.parametrize(
+    ("causality", "variability", "moves"),
+    [
+        ("output", "continuous", True),
+        ("output", "constant", True),  # whoever made the model says that it is measured
+        ("local", "continuous", True),
+        ("local", "discrete", True),
+        ("input", "continuous", True),
+        ("parameter", "tunable", False),
+        ("calculatedParameter", "fixed", False),
+        ("local", "constant", False),
+        ("independent", "continuous", False),
+    ],
+)
+def test_what_cannot_move_is_no_signal_and_is_not_offered(causality: str, variability: str, moves: bool) -> None:
+    own = model(variable("y", "output", "Pa"), replace(variable("p_s", causality, "Pa"), variability=variability))
+    if moves:
+        assert own.measured(shown("p_s", "output", "Pa", "p_s"), "data set 'x'").name == "p_s"
+        return
+    for name in ("p_s", "p_l"):
+        with pytest.raises(BadInput) as caught:
+            own.measured(shown("c", "output", "Pa", name), "data set 'x'")
+        assert str(caught.value).endswith(
+            '; its outputs: y; write variables={"c": "y"} in pysim.load, or variable = "y" below [signals.c]'
+        )
+
+
+def test_an_input_is_offered_for_an_input_only() -> None:
+    own = model(variable("u", "input"), variable("u_v", "output"))
+    for role, name in (("input", "u"), ("output", "u_v")):
+        with pytest.raises(BadInput, match=f'variables={{"c": "{name}"}}'):
+            own.measured(shown("c", role, "1", "u_w"), "data set 'x'")
 
 
 def test_a_file_of_a_cache_goes_by_the_name_of_its_model() -> None:

@@ -15,7 +15,7 @@ from pysim.identify.data_check import (
     share_near_nyquist,
     swing,
 )
-from pysim.io.prepare import DropOutliers, Exclude, FillGaps, Flip, Rename, Resample, Scaled
+from pysim.io.prepare import DropOutliers, FillGaps, Flip, Rename, Resample, Scaled, prepared
 from pysim.types import Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Record, SineTest
 
 SIGNALS = (
@@ -219,9 +219,24 @@ def test_empty_cells_are_found_with_the_length_that_fills_them() -> None:
     assert 0.012 < fill.longest < 0.02  # from the sample ahead of two that are missing to the one behind, at 250 Hz
 
 
-def test_a_short_log_is_left_out() -> None:
-    (short,) = found(time=TIME[:12])
-    assert (short.code, short.cure) == (FindingCode.TOO_SHORT, (Exclude("x"),))
+def logs(*lengths: int) -> Dataset:
+    """A log of so many samples each."""
+    data = np.column_stack([sine(), measured(0.9 * sine())])
+    parts = [Record(TIME[:n], data[:n], ("cmd", "y"), ("%", "%")) for n in lengths]
+    records = [MeasuredRecord(f"{k}.txt", "other", "fit", part) for k, part in enumerate(parts)]
+    return Dataset("d", "-", "-", SIGNALS, tuple(records))
+
+
+@pytest.mark.parametrize(("lengths", "left"), [((12,), None), ((12, 15), None), ((501, 12), 1), ((12, 501, 15), 1)])
+def test_short_logs_are_left_out_where_another_is_left(lengths: tuple[int, ...], left: int | None) -> None:
+    data = logs(*lengths)
+    short = check_dataset(data).findings
+    assert [one.code for one in short] == [FindingCode.TOO_SHORT] * sum(n < 20 for n in lengths)
+    steps = [step for one in short for step in one.cure]
+    if left is None:
+        assert steps == []
+    else:
+        assert len(prepared(data, steps).records) == left
 
 
 def beside(y: np.ndarray, simulated: np.ndarray, unit: str = "%", to: str = "%") -> tuple[Finding, ...]:
@@ -256,6 +271,110 @@ def test_a_slip_between_units_is_found_though_the_gain_is_not_right(factor: floa
     assert slip.code is FindingCode.FACTOR
     assert isinstance(cure, Scaled)
     assert cure.factor == pytest.approx(1 / factor)
+
+
+SHAPE = np.roll(ANSWER, 150)  # as fast as the answer, and it does not follow it
+
+
+@pytest.mark.parametrize("level", [0.0, 1e7])
+@pytest.mark.parametrize("size", [0.3, 1.0, 4.0])
+@pytest.mark.parametrize("factor", [1e5, 1e-5])
+def test_a_far_slip_is_found_though_the_model_lacks_what_moves_the_signal(
+    factor: float, size: float, level: float
+) -> None:
+    (slip,) = beside(size * factor * SHAPE + level, ANSWER - level, "Pa", "Pa")
+    assert slip.code is FindingCode.FACTOR
+    assert slip.cure == (Scaled("y", pytest.approx(1 / factor)),)
+    assert slip.values["factor"] == pytest.approx(factor)
+
+
+@pytest.mark.parametrize(
+    ("y", "simulated"),
+    [
+        *((size * SHAPE, ANSWER) for size in (0.05, 0.3, 4.0, 30.0)),  # the effect of what the model lacks
+        *((size * SHAPE, ANSWER) for size in (1e7, 1e-7, 1e2)),  # no units are so far apart
+        (1e5 * SHAPE, 5 + 1e-9 * (LOGGED - ANSWER)),  # simulated to stand still, but for rounding
+        (1e-5 * (LOGGED - ANSWER) + 3, ANSWER),  # stands still, but for noise
+        (np.append(SHAPE[:-3], [1e5, -1e5, 1e5]), ANSWER),  # outliers
+    ],
+)
+def test_another_size_is_no_slip(y: np.ndarray, simulated: np.ndarray) -> None:
+    assert beside(y, simulated, "Pa", "Pa") == ()
+
+
+def several(
+    measured: list[np.ndarray], simulated: list[np.ndarray], unit: str = "Pa"
+) -> tuple[Dataset, dict[str, Record]]:
+    """Logs run0, run1, ... beside a model's answers."""
+    signals = (SIGNALS[0], replace(SIGNALS[1], unit=unit))
+    records, answers = [], {}
+    for k, (y, own) in enumerate(zip(measured, simulated, strict=True)):
+        log = Record(TIME, np.column_stack([WAVE, y]), ("cmd", "y"), ("%", unit))
+        records.append(MeasuredRecord(f"run{k}.txt", "other", "fit", log))
+        answers[f"run{k}.txt"] = Record(TIME, own[:, None], ("y",), (unit,))
+    return Dataset("d", "-", "-", signals, tuple(records)), answers
+
+
+STILL = 5 + 1e-3 * (LOGGED - ANSWER)
+SLOW = 5 + np.sin(2 * np.pi * 0.7 * TIME)
+GAINS = [1.0, 0.6, 1.3, 0.8]
+
+
+@pytest.mark.parametrize("wrong", [(2,), (0, 3), (0, 1, 2), (0, 1, 2, 3)])
+@pytest.mark.parametrize("factor", [-1.0, 1e-5, -1e3])
+def test_each_log_is_judged_by_itself(wrong: tuple[int, ...], factor: float) -> None:
+    """The first one swings ten times as far as the others; two more tell nothing."""
+    own = [10 * ANSWER, ANSWER, SLOW, ANSWER[::-1], ANSWER, STILL]
+    noise = LOGGED - ANSWER
+    logged = [gain * one + noise for gain, one in zip(GAINS, own, strict=False)] + [STILL, LOGGED]
+    for k in wrong:
+        logged[k] = factor * logged[k]
+    data, answers = several(logged, own)
+    found = check_dataset(data, answers).beside_model
+    wanted = [FindingCode.SIGN] * (factor < 0) + [FindingCode.FACTOR] * (abs(factor) != 1)
+    assert [one.code for one in found] == wanted
+    names = tuple(f"run{k}" for k in wrong) if len(wrong) < 4 else ()
+    for one in found:
+        (cure,) = one.cure
+        assert isinstance(cure, Flip | Scaled)
+        assert cure.logs == names
+        assert one.values.get("logs", "") == ", ".join(names)
+        assert one.source == f"run{wrong[0]}.txt"
+    mended = prepared(data, [step for one in found for step in one.cure])
+    assert check_dataset(mended, answers).beside_model == ()
+    for k in range(4):
+        assert isinstance(mended.records[k].data, Record)
+        np.testing.assert_allclose(mended.records[k].data["y"], logged[k] / (factor if k in wrong else 1), rtol=1e-9)
+
+
+def test_logs_of_a_model_that_hardly_follows_tell_a_sign_by_as_much_as_each_other() -> None:
+    """Correlations of 0.72 and of 0.63: none of the latter is turned along with the former."""
+    own = ANSWER - ANSWER.mean()
+    rest = np.random.default_rng(4).normal(size=TIME.size)
+    rest -= rest.mean() + own * (rest @ own) / (own @ own)
+    rest *= np.sqrt((own @ own) / (rest @ rest))
+    logged = [r * own + np.sqrt(1 - r**2) * rest for r in (-0.63, 0.63, -0.72, 0.67, 0.1, -0.3)]
+    data, answers = several(logged, [ANSWER] * 6)
+    (turned,) = check_dataset(data, answers).beside_model
+    assert turned.cure == (Flip(("y",), ("run0", "run2")),)
+
+
+def test_a_resonance_elsewhere_is_no_turned_sign() -> None:
+    """Half a period late, or nearly, is what a wrong eigenfrequency makes of a sine; of nothing else it does so."""
+    tones = [np.sin(2 * np.pi * hz * TIME) for hz in (2.0, 5.0, 9.0)]
+    late = np.sin(2 * np.pi * 5 * TIME - np.radians(145))
+    data, answers = several([tones[0], late, tones[2], LOGGED], [*tones, ANSWER])
+    assert check_dataset(data, answers).beside_model == ()
+    data, answers = several([tones[0], -tones[1], tones[2], LOGGED], [*tones, ANSWER])
+    (turned,) = check_dataset(data, answers).beside_model
+    assert turned.cure == (Flip(("y",), ("run1",)),)
+
+
+def test_a_plant_that_rests_in_one_log_is_measured_right_there() -> None:
+    """In its dead band it creeps, where the model moves a thousand times as far; not a hundred thousand times."""
+    for size, codes in ((1 / 60, []), (1e-5, [FindingCode.FACTOR])):
+        data, answers = several([LOGGED, size * SHAPE], [ANSWER, ANSWER])
+        assert [one.code for one in check_dataset(data, answers).beside_model] == codes
 
 
 def test_volts_are_calibrated_by_the_model() -> None:

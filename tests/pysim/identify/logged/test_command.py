@@ -9,6 +9,7 @@ from scipy.interpolate import CubicSpline
 from pysim.excitation import Chirp, LeadIn, Step, SteppedSineCommand, StochasticWave
 from pysim.excitation import PiersonMoskowitz as Sea
 from pysim.identify import logged_command
+from pysim.identify.logged.command import jumps
 from pysim.types import BadInput, FrequencyResponse, MeasuredRecord, Record, SineTest
 from pysim.types.record_kind import Command
 from tests.pysim.identify.logs import log
@@ -80,6 +81,30 @@ def test_a_wave_that_starts_with_a_jump_is_smooth_behind_it() -> None:
     np.testing.assert_allclose(signal.value(t), true(t), atol=1e-3)
     jumps, _ = signal.breaks()
     np.testing.assert_allclose(signal.starts[jumps], [2.0])
+
+
+@pytest.mark.parametrize("digit", [1e-3, 1e-2])
+@pytest.mark.parametrize(("hz", "limit"), [(0.2, 2.0), (0.8, 2.0), (0.2, 1.0)])  # the last one saturates
+@pytest.mark.parametrize("step", [0.0, 0.5])
+def test_a_digit_of_a_rounded_command_is_no_jump(digit: float, hz: float, limit: float, step: float) -> None:
+    """A sine that is rounded, saturates or not, and steps at its end or not."""
+    time = np.arange(1000) / 200
+    true = np.clip(2.0004 * np.sin(2 * np.pi * hz * time), -limit, limit)
+    true[900:] = true[899] + step
+    values = np.round(true / digit) * digit
+    assert jumps(values) == ([900] if step else [])
+    record = MeasuredRecord("x.txt", "other", "fit", Record(time, values[:, None], ("cmd",), ("V",)))
+    signal, t = logged_command(record, "cmd"), np.linspace(0.0, time[-1], 7001)
+    away = np.abs(t - time[899]) > 0.006
+    assert np.abs(signal.value(t) - np.interp(t, time, true))[away].max() < 2 * digit + 2e-3
+
+
+@pytest.mark.parametrize("height", [1.0, 1e-3])
+def test_steps_of_equal_height_jump(height: float) -> None:
+    """A staircase, which has one digit only, and a small step behind a large one."""
+    stairs = height * np.repeat(np.arange(40.0) % 12, 20)
+    assert jumps(stairs) == list(range(20, 800, 20))
+    assert jumps(height * np.repeat([0.0, 5.0, 5.01], 20)) == [20, 40]
 
 
 def test_a_noisy_jump_is_left_to_the_spline() -> None:

@@ -131,6 +131,29 @@ def test_scales_and_signs() -> None:
         Scaled("y", 2.0, of="bar").apply(data)
 
 
+def test_signs_and_scales_of_some_logs_only() -> None:
+    one = dataset(TIME, np.ones(TIME.size), 2 * np.ones(TIME.size), command="u", offset=3.0, amplitude=0.5)
+    names = ("run1", "run2", "run3")
+    data = replace(one, records=tuple(replace(one.records[0], source=f"{name}.csv") for name in names))
+
+    def seen(step: Flip | Scaled) -> list[tuple[float, float, float | None]]:
+        after = step.apply(data)
+        assert after.signals == data.signals  # which stand for the other logs too
+        logs = [record.data for record in after.records]
+        return [
+            (log["u"][0], log["y"][0], record.offset)  # type: ignore[index]
+            for log, record in zip(logs, after.records, strict=True)
+        ]
+
+    assert seen(Flip(("y",), ("run2",))) == [(1, 2, 3), (1, -2, 3), (1, 2, 3)]
+    assert seen(Flip(("u", "y"), ("run1", "run3.csv"))) == [(-1, -2, -3), (1, 2, 3), (-1, -2, -3)]
+    assert seen(Scaled("y", 10.0, 1.0, logs=("run3",))) == [(1, 2, 3), (1, 2, 3), (1, 21, 3)]
+    with pytest.raises(BadInput, match="no log 'run4'"):
+        Flip(("y",), ("run4",)).apply(data)
+    with pytest.raises(BadInput, match="in the other logs"):
+        Scaled("y", 10.0, unit="bar", of="m", logs=("run3",)).apply(data)
+
+
 def test_two_signals_swap_their_names() -> None:
     data = Rename({"u": "y", "y": "u"}).apply(dataset(TIME, TIME, -TIME, command="u"))
     assert (data.signals[0].name, data.signals[0].variable, data.records[0].command) == ("y", "y", "y")
@@ -226,6 +249,8 @@ ALL = (
     (Detrend(), "detrend()", "detrend"),
     (Delay("p_A", -0.003), 'delay("p_A", -0.003)', "delay:p_A,-0.003"),
     (Flip(("x", "v")), 'flip("x", "v")', "flip:x,v"),
+    (Flip(("x",), ("a", "b")), 'flip("x", logs=["a", "b"])', "flip:x,logs=a+b"),
+    (Scaled("x", 1e5, logs=("a",)), 'scale("x", factor=100000, logs=["a"])', "scale:x,factor=100000,logs=a"),
     (
         Scaled("x", 12.5, unit="mm", of="V"),
         'scale("x", factor=12.5, unit="mm", of="V")',
