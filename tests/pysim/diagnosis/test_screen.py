@@ -12,8 +12,27 @@ from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.refit import FinalFit, begin, converged
 from pysim.diagnosis.screen import Screened, Sizes, best_of_each, screen, screened
-from tests.pysim.diagnosis.plants import FINE, given, measured, refitted, stopped
+from pysim.diagnosis.session import session
+from pysim.diagnosis.settings import Settings
+from pysim.diagnosis.starts import Starts
+from pysim.effects import read_catalogue
+from pysim.types import Record
+from pysim.workflow.variants import Variants
+from tests.known_answers.plants import PLANTS
+from tests.pysim.diagnosis.plants import FINE, catalogue, given, measured, refitted, stopped
 
+# Hardly there, it acts at the largest places alone; at its usual size, in the middle.
+SIDE = """
+package Side
+  model Push "A push at some place"
+    extends Mass.PartialForce;
+    parameter Real a(unit="1", min=0, max=10, nominal=1) = 0 "0 = off";
+  equation
+    f = -a*exp(STEEP*x)/(1 + a*exp(STEEP*x))^2;
+    annotation(__HydraulicTestBench(effect="side.push", slot="force"));
+  end Push;
+end Side;
+"""
 FORCE = -0.02  # N, constant: it shifts the mass by half its noise
 
 
@@ -98,6 +117,22 @@ def test_a_strength_of_one_sign_gains_nothing_against_it() -> None:
     found = screen(own, lambda transient: blind, FINE)
     assert [one.gain for one in found] == [0.0] * len(found)
     assert all(one.values["mass.drag", "c_2"] > 0 for one in found)
+
+
+def test_an_amount_that_acts_elsewhere_at_its_usual_size_than_practically_off_is_nonlinear(tmp_path: Path) -> None:
+    library, plant = tmp_path / "Side.mo", PLANTS["mass"]
+    data = measured("mass", length=4.0)
+    most = max(float(np.abs(record.data["x"]).max()) for record in data.records if isinstance(record.data, Record))
+    library.write_text(SIDE.replace("STEEP", f"{10 / most:.3g}"), encoding="utf-8")
+    own = Variants(plant.model, (plant.library, library))
+    effects = (*read_catalogue(library), catalogue("mass")["mass.bias"])
+    made = Models(session(own.build(())[0], data, effects, own.build, initial="rest", workers=1))
+    fit = refitted(made)
+    found = screen(made, lambda transient: fit, FINE, wrong_by=4.0)
+    assert {one.effect.name: one.start is None for one in found if one.nonlinear} == {"side.push": True}
+    assert {one.effect.name for one in found if not one.nonlinear} == {"side.push", "mass.bias"}
+    starts = {share: Starts(lambda transient: fit, FINE, True, share, Settings()) for share in (0.0, 1e3)}
+    assert [len(one.runners(found, [], 2)) for one in starts.values()] == [0, 2]  # where noise alone is left, and not
 
 
 def test_a_limit_is_tried_below_what_its_variable_reaches(tmp_path: Path) -> None:
