@@ -89,7 +89,7 @@ def stands_out(records: Sequence[RecordFit], settings: Settings) -> StandsOut | 
     A sensor's noise is the same in all. Two variances are compared by their F test. Squares of n Gaussian residuals
     with autocorrelations rho are worth n / sum(rho^2) independent ones (Bartlett 1946).
     """
-    columns = [(one, k, one.residual[k][:, None]) for one in records for k in one.measured.names]
+    columns = [(one, k, rest[k][:, None]) for one in records for rest in (one.residual,) for k in rest.names]
     if not columns:
         return None
     names = np.array([f"{one.dataset}/{k}" for one, k, _ in columns])

@@ -64,7 +64,7 @@ _WORDS = {
     NoteCode.HELD_AS_SET: "held as set, not refitted: {parameters}; free them to refit them from there",
     NoteCode.BUILT_WITH: "built with values of its own, which every candidate has too: {parameters}",
     NoteCode.NO_EFFECT_FITS: "no slot of {model} takes an effect of the libraries, so none could be tried",
-    NoteCode.CLASS_UNKNOWN: ("{model} is in none of the libraries, so no effect can be added; name its library"),
+    NoteCode.CLASS_UNKNOWN: "{model} is in none of the libraries, so no effect can be added; name its library",
     NoteCode.SEEN_FROM_OUTSIDE: (
         "looked at were the inputs {inputs} and the outputs {outputs} of {model}, nothing inside it: neither its "
         "{states:.0f} states nor the terms of their equations"

@@ -82,7 +82,7 @@ def fit_problem(
     rest = {name: value for name, value in values.items() if name not in (*names, *tied)} | dict(held)
     for name in (*begin, *bounds):
         if name not in names:
-            raise BadInput(f"{name} has a start or bounds but is not free; free it too, or only set it")
+            raise BadInput(f"{name} has a start or bounds but is not free; set it only, or add it to --free (free it)")
     if not nothing_free:
         _refuse_still(datasets)
     data = [Measurements(in_model_units(one, model), outputs=tuple(outputs) or None) for one in datasets]

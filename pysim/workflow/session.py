@@ -176,7 +176,8 @@ def effects_of(names: Sequence[str], parts: SessionParts) -> tuple[Effect, ...]:
     """
     if parts.variants is None:
         raise BadInput(
-            f"nothing can be added to {parts.model_name}: its class is in none of the libraries; name its library"
+            f"nothing can be added to {parts.model_name}: its class is in none of the libraries; name its library "
+            "(--library)"
         )
     for name in names:
         if list(names).count(name) > 1:

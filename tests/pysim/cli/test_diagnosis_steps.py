@@ -207,7 +207,7 @@ def test_mistakes_are_one_line(
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (["add", "--effects", "toy.bias", "--free", "m"], ["its class is in none of the", "name its library"]),
+        (["add", "--effects", "toy.bias", "--free", "m"], ["its class is in none of the libraries", "--library"]),
         (["diagnose", "--max-effects", "0", "--free", "m", "--bounds", "m=0.5:5"], ["class is not at hand"]),
         (["diagnose"], ["--free m --bounds m=0.1:10"]),
         (["compare", "--refit"], ["--free m --bounds m=0.1:10"]),

@@ -171,7 +171,7 @@ def test_what_was_fitted_is_built_into_an_fmu(
         (["--free", "K", "--set", "T"], ["--set T", "write NAME=VALUE"]),
         (["--free", "K", "--tie", "g=two*K"], ["--tie g=two*K", "write A=B or A=2.5*B"]),
         (["--free", "K", "--bounds", "K=1"], ["--bounds K=1", "write NAME=LOW:HIGH"]),
-        (["--free", "K", "--start", "T=1"], ["T has a start or bounds", "free it too"]),
+        (["--free", "K", "--start", "T=1"], ["T has a start or bounds", "add it to --free"]),
         (["--free", "K,T", "--profile", "K,tau"], ["--profile tau", "choose of K, T"]),
         (["--free", "K", "--profile", "K"], ["--profile K", "needs no profile"]),
         (

@@ -147,7 +147,7 @@ MISTAKES = [
     ),
     (["diagnose", "d", *AXIS, "--max-effects", "-1"], ["--max-effects -1", "0 or more"]),
     (["fit", "d", *AXIS, "--profile", "q"], ["--profile q", "choose of m"]),
-    (["fit", "d", *AXIS, "--start", "q=1"], ["q has a start", "free it too"]),
+    (["fit", "d", *AXIS, "--start", "q=1"], ["q has a start", "add it to --free"]),
     (["compare", "d", *AXIS, "--refit", "--free", "mm"], ["Axis has no variable 'mm'", "near it: m"]),
     (["locate", "d", *AXIS, "--bounds", "m=1"], ["--bounds m=1", "write NAME=LOW:HIGH"]),
     (["add", "d", *AXIS], ["--effects"]),
