@@ -13,7 +13,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnosis.candidate import Candidate, Key, Models, Values
+from pysim.diagnosis.candidate import Candidate, Key, Models, Refused, Values
 from pysim.diagnosis.refit import FinalFit, begin, begun, exact
 from pysim.diagnosis.rivals import Rows, of, rows
 from pysim.identify.greybox import Point, Simulation
@@ -110,11 +110,11 @@ def screen(
         try:
             candidate = models.of((*own.effects, effect), own.nuisances)
         except BadInput as error:
-            models.refused.setdefault(effect.name, str(error))
+            models.refused.setdefault(effect.name, Refused(str(error), own.labels))
             continue
         tried = list(_screened(candidate, effect, before(candidate.transient), simulation, sizes))
         if not tried:
-            models.refused.setdefault(effect.name, "the model could not be simulated with it")
+            models.refused.setdefault(effect.name, Refused("the model could not be simulated with it", own.labels))
         found += tried
     return sorted(found, key=lambda one: -one.gain)
 

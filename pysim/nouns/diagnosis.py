@@ -249,8 +249,10 @@ class Diagnosis(Shown):
 
     @property
     def _words(self) -> list[str]:
+        from pysim.present.diagnosis.words import verdict_words
+
         sentence = self.sentence if len(self.sentence) < 700 else f"{self.sentence[:697]}..."
-        return [f"Verdict: {self.verdict}", *textwrap.wrap(sentence, 100)]
+        return [f"Verdict: {verdict_words(self.found)}", *textwrap.wrap(sentence, 100)]
 
     @property
     def _tables(self) -> tuple[Table, ...]:

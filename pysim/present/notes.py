@@ -27,7 +27,7 @@ _WORDS = {
         "a long memory. The log is compared sample by sample from its start."
     ),
     NoteCode.NOT_SIMULATED: "{record} could not be simulated: {reason}",
-    NoteCode.NOT_TRIED: "{effect} was not tried: {reason}.",
+    NoteCode.NOT_TRIED: "{effect} was not tried{next_to}: {reason}.",
     NoteCode.HELD: "The data do not determine {parameter}; it was held at its value, and the intervals hold for that.",
     NoteCode.BEYOND_BOUND: "{effect} would end beyond its bounds and is not named: widen them where it may go so far.",
     NoteCode.AT_BOUND: (
@@ -210,6 +210,7 @@ def words(note: Note) -> str:
         values = {"widths": ", ".join(f"{name} {value:.2g}" for name, value in values.items())}
     others = float(values.get("others", 0.0))
     values["more"] = f" and {others:.0f} more" if others else ""
+    values["next_to"] = f" beside {values['beside']}" if "beside" in values else ""
     values |= {"shown": _shown(note)} if {"value", "bound"} & values.keys() else {}
     text = _WORDS[note.code].format_map(values)
     return f"{values['at']:g} Hz: {text}" if "at" in values else text
