@@ -143,6 +143,9 @@ _WORDS = {
 
 # Use of a log -> what was done with it. Held out is what nothing was fitted to, and nothing chosen with.
 USES = {"fit": "fitted", "validate": "used to choose", "test": "held out"}
+_EQUAL = 0.05  # share up to which a change is not worth saying
+_MUCH = 1000.0  # factor beyond which its size says nothing
+_OF_DIRECTION = {"@spread": math.inf, "@low": 0.0, "@high": math.inf}  # beside the exponents, and what stands for none
 NOT_FITTED = "not fitted"  # either of the last two
 
 
@@ -160,18 +163,28 @@ def estimate_words(estimate: Estimate, *, held: bool = False) -> str:
 
 
 def direction_words(direction: Direction) -> str:
-    """What the data do not tell apart, with an example: one standard deviation, or a tenth where nothing is known."""
-    scale = math.exp(direction.spread) if math.isfinite(direction.spread) else 1.1
-    changes = {name: _change(scale**power) for name, power in direction.exponents.items()}
-    first, *others = changes
-    may = f"{first} may be {changes[first]}"
+    """What the data do not tell apart, and how far: to the end of an interval, else one standard deviation, or a tenth
+    where nothing is known."""
+    first, *others = direction.exponents
+    ends = [end for end in reversed(direction.reach) if 0 < end < math.inf]
     if not others:
-        known = "hardly determine" if math.isfinite(direction.spread) else "do not determine"
-        return f"These data {known} {first}: {may}. Fix it, or log what depends on it."
-    condition = listed([f"{name} is {changes[name]}" for name in others])
-    return (
-        f"These data do not tell {listed([*changes])} apart: {may} if {condition}. Fix one, or use their combinations."
-    )
+        cure = "Fix it, or log what depends on it."
+        if math.isinf(direction.spread):
+            return f"These data do not determine {first}: any value within its bounds does as well. {cure}"
+        changed = sorted(end ** direction.exponents[first] for end in ends or [_usual(direction)])
+        sizes = " or ".join(_change(end) for end in changed if abs(end - 1) > _EQUAL)
+        return f"These data hardly determine {first}{f': it may be {sizes}' if sizes else ''}. {cure}"
+    said = f"These data do not tell {listed([*direction.exponents])} apart"
+    scale = next((end for end in ends or [_usual(direction)] if abs(end - 1) > _EQUAL), None)
+    if scale is not None:
+        changes = {name: _change(scale**power) for name, power in direction.exponents.items()}
+        said += f": {first} may be {changes[first]} if {listed([f'{name} is {changes[name]}' for name in others])}"
+    return f"{said}. Fix one, or use their combinations."
+
+
+def _usual(direction: Direction) -> float:
+    """A factor that tells of a direction whose ends are not known."""
+    return min(math.exp(direction.spread), _MUCH) if math.isfinite(direction.spread) else 1.1
 
 
 def listed(texts: Sequence[str]) -> str:
@@ -180,6 +193,8 @@ def listed(texts: Sequence[str]) -> str:
 
 
 def _change(factor: float) -> str:
+    if not 1 / _MUCH < factor < _MUCH:
+        return f"more than {_MUCH:g} times {'as large' if factor > 1 else 'smaller'}"
     if factor >= 1:
         return f"{factor:.2g} times as large" if factor >= 2 else f"{100 * (factor - 1):.2g} % larger"
     return f"{1 / factor:.2g} times smaller" if factor <= 0.5 else f"{100 * (1 - factor):.2g} % smaller"
@@ -204,8 +219,8 @@ def words(note: Note) -> str:
     """
     values = dict(note.values)
     if note.code is NoteCode.INTERCHANGEABLE:
-        spread = float(values.pop("@spread"))
-        return direction_words(Direction({name: float(value) for name, value in values.items()}, spread))
+        spread, low, high = (float(values.pop(name, usual)) for name, usual in _OF_DIRECTION.items())
+        return direction_words(Direction({name: float(value) for name, value in values.items()}, spread, (low, high)))
     if note.code is NoteCode.INTERVAL_WIDTHS:
         values = {"widths": ", ".join(f"{name} {value:.2g}" for name, value in values.items())}
     others = float(values.get("others", 0.0))

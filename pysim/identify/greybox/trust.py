@@ -41,7 +41,10 @@ def _open(found: Fit | ErrorStep) -> Iterator[Note]:
     """Notes on parameters at a bound, and on parameters that the data do not separate."""
     yield from (at_bound(one) for one in found.estimates if one.at)
     for one in found.undetermined:
-        yield Note(NoteCode.INTERCHANGEABLE, {**one.exponents, "@spread": one.spread})
+        yield Note(
+            NoteCode.INTERCHANGEABLE,
+            {**one.exponents, "@spread": one.spread, "@low": one.reach[0], "@high": one.reach[1]},
+        )
 
 
 def at_bound(one: Estimate) -> Note:
