@@ -141,6 +141,12 @@ def test_what_stands_still_or_is_not_free_is_refused(mass: Model, data: Dataset)
 
 
 def test_it_draws_and_is_reported(fitted: Fit, tmp_path: Path) -> None:
+    worst, other = sorted(fitted.found.records, key=lambda one: -one.rms["x"])
+    assert worst.use == "fit"  # so that what is drawn is not the log that was held out
+    for log, drawn in (("", worst), (other.source, other)):
+        assert fitted.plot(log=log).axes[0].get_title(loc="left").startswith(drawn.source)
+        layout = fitted.plot(log=log, interactive=True).layout
+        assert layout.title.text.startswith(drawn.source)
     assert len(fitted.plot().axes) == 2
     assert fitted.plot("parameters").axes
     assert fitted.plot("correlation").axes
