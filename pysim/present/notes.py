@@ -102,7 +102,8 @@ _WORDS = {
         "fewer of both."
     ),
     NoteCode.UNBOUNDED: (
-        "{parameters}: refitted without bounds on both sides, since neither the model nor the call gives any."
+        "{parameters}: refitted without bounds on both sides, since neither the model nor the call gives any. "
+        "Give some with --bounds, or in Python with model.free(...)."
     ),
     NoteCode.NO_NEXT_TEST: "No test that would settle the tie was looked for: {reason}.",
     NoteCode.NO_LAW: "No law was learned: the best one, {law}, gains no more than chance would.",

@@ -22,11 +22,13 @@ _SAID = (NoteCode.NOT_AT_REST, NoteCode.NOT_SIMULATED)
 def fit_warnings(fit: Fit) -> tuple[Note, ...]:
     """Reasons why the parameters or their intervals may be wrong; none for a fit that can be trusted.
 
-    The residuals are far above the noise, a parameter is at a bound, parameters are nearly interchangeable, a log
-    did not begin at rest, a record could not be simulated, or the search ended before it had converged.
+    The residuals are far above the noise, a parameter is at a bound or has none, parameters are nearly interchangeable,
+    a log did not begin at rest, a record could not be simulated, or the search ended before it had converged.
     """
     found = [*_poor(fit.records, fit.misfit), *(note for note in fit.notes if note.code in _SAID)]
     found += [*_open(fit), *_correlated(fit)]
+    endless = [one.name for one in fit.estimates if math.isinf(one.lower) and math.isinf(one.upper)]
+    found += [Note(NoteCode.UNBOUNDED, {"parameters": ", ".join(endless)})] if endless else []
     if fit.outcome in (FitOutcome.STALLED, FitOutcome.ITERATION_LIMIT):
         found.append(Note(NoteCode.SEARCH_GAVE_UP, {"evaluations": float(fit.iterations)}))
     return tuple(dict.fromkeys(found))

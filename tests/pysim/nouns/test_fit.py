@@ -70,7 +70,7 @@ def test_errors_of_the_integration_do_not_pass_for_missing_physics(mass: Model) 
 
 
 def test_a_parameter_at_its_bound_is_said(mass: Model) -> None:
-    found = pysim.fit(mass.free("d", "k", m=(0.5, 0.9)).set(m=0.8), measured(3, "toy.friction", F_c=0.0))
+    found = pysim.fit(mass.set(m=0.8).free("d", "k", m=(0.5, 0.9)), measured(3, "toy.friction", F_c=0.0))
     assert found.table.row("m")["remark"] == "AT BOUND"
     assert any("m stopped at its bound" in text for text in found.warnings)
     assert "AT BOUND" in repr(found)
