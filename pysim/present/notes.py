@@ -35,7 +35,8 @@ _WORDS = {
     ),
     NoteCode.POOR_FIT: (
         "The fit is poor: the residuals of {signal} are {factor:.3g} standard deviations of the noise. The noise is "
-        "larger than assumed, or the model lacks something: press Find what is missing, or run pysim diagnose."
+        "larger than assumed, or the model lacks something: press Find what is missing, run pysim "
+        "diagnose, or in Python pysim.diagnose(fitted)."
     ),
     NoteCode.CORRELATED: (
         "{first} and {second} are hardly distinguishable (correlation {correlation:.2f}). Fix one of them, or log what "
