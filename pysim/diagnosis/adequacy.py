@@ -34,7 +34,7 @@ def shortcomings(dataset: Dataset, free: Sequence[str], initial: str = "near res
     if not any(record.use != "fit" for record in dataset.records):
         notes.append(
             "every record is fitted, so nothing tells how far the answer holds for other tests; hold one out "
-            '(use = "test")'
+            '(use = "test", in Python data.hold_out(...))'
         )
     outputs = {name for record in fitted for name in _outputs(record, dataset)}
     if len(outputs) == 1:

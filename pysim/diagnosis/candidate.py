@@ -9,7 +9,7 @@ import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +20,7 @@ from pysim.identify.greybox.objective import NOISE
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
 from pysim.identify.greybox.problem import beside
 from pysim.identify.greybox.residuals import Carried
-from pysim.types import BadInput, Effect, EffectParameter, Model
+from pysim.types import BadInput, Effect, EffectParameter, Model, Note, NoteCode
 from pysim.types._frozen import FrozenMapping
 
 Array = NDArray[np.float64]
@@ -155,6 +155,18 @@ def sensor_name(nuisance: Nuisance) -> str:
     return f"sensor.{nuisance.kind.value}"
 
 
+class Refused(NamedTuple):
+    """Why an effect could not be tried, and the labels of what the model had already, beside which it could not."""
+
+    reason: str
+    beside: tuple[str, ...] = ()
+
+    def note(self, effect: str) -> Note:
+        """The same of an effect, for people to read."""
+        beside = {"beside": " + ".join(self.beside)} if self.beside else {}
+        return Note(NoteCode.NOT_TRIED, {"effect": effect, "reason": self.reason} | beside)
+
+
 class Models:
     """Makes candidates and compiles each model once.
 
@@ -168,7 +180,7 @@ class Models:
         self._problems: dict[tuple[tuple[str, ...], bool], Problem] = {}
         smooth = tuple(e for e in map(searched, session.catalogue) if not (e.bypass or switches(e)))
         self._together = [smooth] if smooth else []
-        self.refused: dict[str, str] = {}
+        self.refused: dict[str, Refused] = {}
         self.watch: Callable[[Any], object] | None = None
 
     def of(

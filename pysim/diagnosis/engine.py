@@ -9,7 +9,7 @@ from functools import partial
 from pathlib import Path
 
 from pysim.diagnosis import verdict
-from pysim.diagnosis.candidate import Models
+from pysim.diagnosis.candidate import Models, Refused
 from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.error_history import error_step, held_still
 from pysim.diagnosis.learn.described import answered
@@ -210,7 +210,8 @@ def _answer(
     settles, unsettled = _next_test(session, found)
     learned, missing = answered(learning, (history[-2].validate, history[-1].validate)) if learning else ((), ())
     of_law = [verdict.note_of_laws(learning, final)] if wanted and not learned else []
-    refused = {**search.models.refused, **({} if learning is None else learning.refused)}
+    places = {} if learning is None else {place: Refused(why) for place, why in learning.refused.items()}
+    refused = search.models.refused | places
     own = verdict.notes_of(found, estimates, refused, session)
     beyond = {name for table in search.tables for name in table.beyond} & {one.name for one in session.catalogue}
     own += [Note(NoteCode.BEYOND_BOUND, {"effect": name}) for name in sorted(beyond - set(final.names))]

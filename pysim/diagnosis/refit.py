@@ -125,10 +125,10 @@ def begin(candidate: Candidate, values: Values, simulation: Simulation, present:
     return begun(candidate, evaluate(x, carried), simulation, evaluate)
 
 
-def begin_anywhere(candidate: Candidate, simulation: Simulation) -> FinalFit:
-    """Begin at the candidate's own values, or where a search on longer and longer stretches of its logs has ended."""
+def begin_anywhere(candidate: Candidate, values: Values, simulation: Simulation) -> FinalFit:
+    """Begin at values, else at the candidate's own; or where a search on longer and longer stretches of logs ended."""
     residuals = candidate.residuals(simulation)
-    point = first_point(residuals, candidate.model, candidate.space, candidate.at({}))
+    point = first_point(residuals, candidate.model, candidate.space, candidate.at(values))
     return begun(candidate, point, simulation, exact(candidate, simulation))
 
 

@@ -13,7 +13,7 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnosis.candidate import Candidate, Key, Models, Values
+from pysim.diagnosis.candidate import Candidate, Key, Models, Refused, Values
 from pysim.diagnosis.refit import FinalFit, begin, begun, exact
 from pysim.diagnosis.rivals import Rows, of, rows
 from pysim.identify.greybox import Point, Simulation
@@ -116,7 +116,7 @@ def screen(
         try:
             candidate = models.of((*own.effects, effect), own.nuisances)
         except BadInput as error:
-            models.refused.setdefault(effect.name, str(error))
+            models.refused.setdefault(effect.name, Refused(str(error), own.labels))
             continue
         there, slope = before(candidate.transient), slopes.get(effect.name)
         tried = list(_screened(candidate, effect, there, simulation, sizes))
@@ -125,7 +125,7 @@ def screen(
             alike = any(a @ b > np.linalg.norm(a) * np.linalg.norm(b) / math.sqrt(wrong_by) for a, b in pairs)
             tried = [] if alike else [replace(one, nonlinear=True) for one in tried]
         elif not tried:
-            models.refused.setdefault(effect.name, "the model could not be simulated with it")
+            models.refused.setdefault(effect.name, Refused("the model could not be simulated with it", own.labels))
         found += tried
     return sorted(found, key=lambda one: -one.gain)
 

@@ -145,7 +145,7 @@ class Search:
         self.say.doing("fitting the model")
 
         def found() -> FinalFit:
-            first = begin_anywhere(candidate, self.rough)
+            first = begin_anywhere(candidate, self.models.session.begins, self.rough)
             if not first.good:
                 failure = first.point.failure
                 raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {failure}")
@@ -236,12 +236,15 @@ class Search:
 
     def as_it_is(self) -> FinalFit:
         """The nominal base model; only the initial states of the logs are estimated.
+        Where it cannot be simulated at its own values, it is taken where the search begins.
 
         Raises:
             BadInput: it cannot be simulated.
         """
         candidate = replace(self.models.of(()), watch=None)  # it is no point of a search
         first = begin(candidate, {}, self.fine)
+        if not first.good:
+            first = begin(candidate, self.models.session.begins, self.fine)
         if not first.good:
             raise BadInput(f"{candidate.model.label} cannot be simulated at its own parameters: {first.point.failure}")
         residuals = candidate.residuals(self.fine)

@@ -7,6 +7,7 @@ import sys
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 from pysim.diagnosis.adequacy import shortcomings
 from pysim.diagnosis.learn.laws import Terms
@@ -46,6 +47,7 @@ class Session:
         workers: threads that simulate.
         build_law: compiles models with learned laws; None if the source is not available.
         numbers: places among all logs (`RecordFit.index`) of those in `data`, and of those in `unseen`.
+        begins: free parameter -> where the search begins, if not at the base model's own value.
     """
 
     model: Model
@@ -61,6 +63,7 @@ class Session:
     workers: Threads = field(default_factory=Threads)
     build_law: BuildLaw | None = None
     numbers: tuple[Sequence[int], ...] = ()
+    begins: Mapping[Any, float] = field(default_factory=dict)
 
     @property
     def dataset(self) -> Dataset:
@@ -111,6 +114,7 @@ def session(
     settings: Settings | None = None,
     workers: int | None = None,
     build_law: BuildLaw | None = None,
+    begins: Mapping[str, float] | None = None,
 ) -> Session:
     """Check model, measurements and catalogue, and make the session.
 
@@ -124,6 +128,7 @@ def session(
         initial: what is known of the plant's state at a log's first sample: "near rest", "rest" or "estimate".
         workers: number of simultaneous runs; all cores if None.
         build_law: compiles models with learned laws; None learns no law.
+        begins: free parameter -> where the search begins, if not at the model's own value.
     Raises:
         BadInput: no free parameter, bounds of a parameter that is not free, a data set and a model that do not match,
             or measurements that do not suffice for a diagnosis.
@@ -153,6 +158,7 @@ def session(
         numbers=tuple(
             [n for n, log in enumerate(dataset.logs()) if (log.use == TEST) == held] for held in (False, True)
         ),
+        begins=begins or {},
     )
     checked = given.problems[0]
     more = [*(Note(NoteCode.OTHER, {"text": text}) for text in shortcomings(dataset, names, initial)), *checked.notes]

@@ -9,7 +9,7 @@ import numpy as np
 from scipy.special import fdtri
 
 from pysim.diagnosis import rivals
-from pysim.diagnosis.candidate import sensor_name, switches
+from pysim.diagnosis.candidate import Refused, sensor_name, switches
 from pysim.diagnosis.learn.learn import Learning
 from pysim.diagnosis.left import Follows
 from pysim.diagnosis.refit import FinalFit
@@ -146,9 +146,11 @@ def ties(found: Found) -> tuple[tuple[str, ...], ...]:
     )
 
 
-def notes_of(found: Found, estimates: Sequence[Estimate], refused: Mapping[str, str], session: Session) -> list[Note]:
+def notes_of(
+    found: Found, estimates: Sequence[Estimate], refused: Mapping[str, Refused], session: Session
+) -> list[Note]:
     """Notes on the answer: effects not tried, estimates at bounds, and what the intervals are conditional on."""
-    notes = [Note(NoteCode.NOT_TRIED, {"effect": name, "reason": why}) for name, why in refused.items()]
+    notes = [one.note(name) for name, one in refused.items()]
     notes += [at_bound(one) for one in estimates if one.at]
     if found.final.names:
         notes.append(Note(NoteCode.INTERVAL_CONDITIONAL, {}))

@@ -52,13 +52,13 @@ def diagnose(
     from pysim.diagnosis import Settings
     from pysim.diagnosis import diagnose as searched
 
-    model, dataset, begin = _given(subject, data, initial)
+    model, dataset, begin, begins = _given(subject, data, initial)
     if model.effects_in:
         names = ", ".join(one.name for one in model.effects_in)
         raise BadInput(
             f"diagnose: the model has {names} already; diagnose the one without, which has it as a candidate"
         )
-    parts = _parts(model, dataset, begin, names_of(effects, "effects"))
+    parts = _parts(model, dataset, begin, begins, names_of(effects, "effects"))
     work = partial(searched, checkpoint=None if checkpoint is None else path_of(checkpoint, "checkpoint"))
     found = _asked(parts, work, progress, f"diagnosing {model.name}", Settings(max_effects=max_effects))
     return Diagnosis(found, replace(model, measured=dataset, initial=begin), parts)
@@ -81,28 +81,32 @@ def locate(
     """
     from pysim.diagnosis import learn
 
-    model, dataset, begin = _given(subject, data, initial)
-    parts = _parts(replace(model, effects_in=()), dataset, begin)
+    model, dataset, begin, begins = _given(subject, data, initial)
+    parts = _parts(replace(model, effects_in=()), dataset, begin, begins)
     work = partial(
         learn, effects=model.effects_in, checkpoint=None if checkpoint is None else path_of(checkpoint, "checkpoint")
     )
     return laws_of(_asked(parts, work, progress, f"locating what {model.name} lacks"), model)
 
 
-def _given(subject: Subject, data: Measured | None, initial: Initial) -> tuple[Model, Dataset, Initial]:
-    """Model, measurements, and what is known of each log's first sample."""
+def _given(
+    subject: Subject, data: Measured | None, initial: Initial
+) -> tuple[Model, Dataset, Initial, Mapping[str, float]]:
+    """Model before it was fitted, measurements, what is known of each log's first sample, and what was fitted."""
     if isinstance(subject, Fit):
         dataset = subject.dataset if data is None else dataset_of(data)
-        return subject.model, dataset, subject.initial if initial is None else initial
+        return subject.begun, dataset, subject.initial if initial is None else initial, subject.values
     subject = model_given(subject, "diagnose and locate", "subject")
     if data is None:
         raise BadInput(
             "a model alone has no measurements; write diagnose(model, data), or diagnose(fit)", argument="data"
         )
-    return subject, dataset_of(data), initial
+    return subject, dataset_of(data), initial, {}
 
 
-def _parts(model: Model, dataset: Dataset, initial: Initial, effects: Sequence[str] = ()) -> SessionParts:
+def _parts(
+    model: Model, dataset: Dataset, initial: Initial, begins: Mapping[str, float], effects: Sequence[str] = ()
+) -> SessionParts:
     """All that a session is made of."""
     from pysim.workflow import beginning, initial_values, reference_of, session_parts
 
@@ -113,7 +117,7 @@ def _parts(model: Model, dataset: Dataset, initial: Initial, effects: Sequence[s
         model.base, beginning(dataset, initial), libraries=model.libraries, **model.refitted(),
         values={**model.values, **begun}, effects=effects, reference_hz=reference_of(dataset.responses()),
     )  # fmt: skip
-    return replace(parts, rested=not begun)
+    return replace(parts, rested=not begun, begins={name: begins[name] for name in parts.free if name in begins})
 
 
 def _asked(
@@ -249,8 +253,10 @@ class Diagnosis(Shown):
 
     @property
     def _words(self) -> list[str]:
+        from pysim.present.diagnosis.words import verdict_words
+
         sentence = self.sentence if len(self.sentence) < 700 else f"{self.sentence[:697]}..."
-        return [f"Verdict: {self.verdict}", *textwrap.wrap(sentence, 100)]
+        return [f"Verdict: {verdict_words(self.found)}", *textwrap.wrap(sentence, 100)]
 
     @property
     def _tables(self) -> tuple[Table, ...]:

@@ -202,7 +202,10 @@ class Fit(Shown):
         from pysim.present.parameters import parameters_chart
 
         if what == "log":
-            return Comparison({"fitted": self.found.records}, self.dataset).plot(log, interactive=interactive)
+            records = self.found.records
+            if not log and records:
+                records = (max(records, key=lambda one: max(one.rms.values())),)
+            return Comparison({"fitted": records}, self.dataset).plot(log, interactive=interactive)
         if what not in ("parameters", "correlation"):
             raise BadInput(f'plot: {what!r} is not known; write "log", "parameters" or "correlation"')
         if not interactive:

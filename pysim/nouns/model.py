@@ -277,10 +277,13 @@ class Model(Shown):
                 one more measurement. It frees the parameter too.
             bounds: parameter = (lowest, highest), in its unit.
         Raises:
-            BadInput: no such parameter, or bounds that are not two increasing numbers.
+            BadInput: nothing named, no such parameter, or bounds that are not two increasing numbers around its value.
         """
         prior = prior or {}
         names = (*names_of(names, "free"), *prior)
+        if not (names or bounds):
+            own = ", ".join(map(repr, self.free_names[:3])) or "'m'"
+            raise BadInput(f"free: nothing is named; name what a fit may change: model.free({own})", argument="names")
         for name in (*names, *bounds):
             self._settable(name)
         checked = {}
@@ -293,7 +296,26 @@ class Model(Shown):
         prior = {name: _pair(name, pair, "prior", "mean, standard deviation") for name, pair in prior.items()}
         chosen = tuple(dict.fromkeys([*self.chosen, *names, *bounds]))
         grown = replace(self, bounds={**self.bounds, **checked}, priors={**self.priors, **prior})
-        return replace(grown, chosen=chosen, held=self.held - {*names, *bounds})
+        grown = replace(grown, chosen=chosen, held=self.held - {*names, *bounds})
+        for name, ends in checked.items():
+            self._refuse_outside(name, ends, grown.values.get(name, grown.usual().get(name, self.compiled[name].start)))
+        return grown
+
+    def _refuse_outside(self, name: str, ends: tuple[float, float], value: float | None) -> None:
+        """Say how a value comes inside new bounds: at once if the old ones let it, else over bounds that hold both."""
+        if value is None or ends[0] <= value <= ends[1]:
+            return
+        least, most = self._bounds(self.compiled[name])
+        low = ends[0] if least is None else max(ends[0], least)
+        high = ends[1] if most is None else min(ends[1], most)
+        way = "" if low <= high else f".free(**{{'{name}': ({min(ends[0], value):g}, {max(ends[1], value):g})}})"
+        inside = sum(ends if way else (low, high)) / 2
+        cure = f"model{way}.set(**{{'{name}': {inside:g}}}).free(**{{'{name}': ({ends[0]:g}, {ends[1]:g})}})"
+        raise BadInput(
+            f"free: {name} = {value:g} is outside {ends[0]:g} to {ends[1]:g} {self.compiled[name].unit}; set a value "
+            f"inside, too: {cure}",
+            argument=name,
+        )
 
     def fix(self, *names: str, **values: float) -> Model:
         """Let a fit leave these parameters where they are, or at these values."""

@@ -27,7 +27,7 @@ _WORDS = {
         "a long memory. The log is compared sample by sample from its start."
     ),
     NoteCode.NOT_SIMULATED: "{record} could not be simulated: {reason}",
-    NoteCode.NOT_TRIED: "{effect} was not tried: {reason}.",
+    NoteCode.NOT_TRIED: "{effect} was not tried{next_to}: {reason}.",
     NoteCode.HELD: "The data do not determine {parameter}; it was held at its value, and the intervals hold for that.",
     NoteCode.BEYOND_BOUND: "{effect} would end beyond its bounds and is not named: widen them where it may go so far.",
     NoteCode.AT_BOUND: (
@@ -35,7 +35,8 @@ _WORDS = {
     ),
     NoteCode.POOR_FIT: (
         "The fit is poor: the residuals of {signal} are {factor:.3g} standard deviations of the noise. The noise is "
-        "larger than assumed, or the model lacks something: press Find what is missing, or run pysim diagnose."
+        "larger than assumed, or the model lacks something: press Find what is missing, run pysim "
+        "diagnose, or in Python pysim.diagnose(fitted)."
     ),
     NoteCode.CORRELATED: (
         "{first} and {second} are hardly distinguishable (correlation {correlation:.2f}). Fix one of them, or log what "
@@ -102,7 +103,8 @@ _WORDS = {
         "fewer of both."
     ),
     NoteCode.UNBOUNDED: (
-        "{parameters}: refitted without bounds on both sides, since neither the model nor the call gives any."
+        "{parameters}: refitted without bounds on both sides, since neither the model nor the call gives any. "
+        "Give some with --bounds, or in Python with model.free(...)."
     ),
     NoteCode.NO_NEXT_TEST: "No test that would settle the tie was looked for: {reason}.",
     NoteCode.NO_LAW: "No law was learned: the best one, {law}, gains no more than chance would.",
@@ -143,6 +145,9 @@ _WORDS = {
 
 # Use of a log -> what was done with it. Held out is what nothing was fitted to, and nothing chosen with.
 USES = {"fit": "fitted", "validate": "used to choose", "test": "held out"}
+_EQUAL = 0.05  # share up to which a change is not worth saying
+_MUCH = 1000.0  # factor beyond which its size says nothing
+_OF_DIRECTION = {"@spread": math.inf, "@low": 0.0, "@high": math.inf}  # beside the exponents, and what stands for none
 NOT_FITTED = "not fitted"  # either of the last two
 
 
@@ -160,18 +165,28 @@ def estimate_words(estimate: Estimate, *, held: bool = False) -> str:
 
 
 def direction_words(direction: Direction) -> str:
-    """What the data do not tell apart, with an example: one standard deviation, or a tenth where nothing is known."""
-    scale = math.exp(direction.spread) if math.isfinite(direction.spread) else 1.1
-    changes = {name: _change(scale**power) for name, power in direction.exponents.items()}
-    first, *others = changes
-    may = f"{first} may be {changes[first]}"
+    """What the data do not tell apart, and how far: to the end of an interval, else one standard deviation, or a tenth
+    where nothing is known."""
+    first, *others = direction.exponents
+    ends = [end for end in reversed(direction.reach) if 0 < end < math.inf]
     if not others:
-        known = "hardly determine" if math.isfinite(direction.spread) else "do not determine"
-        return f"These data {known} {first}: {may}. Fix it, or log what depends on it."
-    condition = listed([f"{name} is {changes[name]}" for name in others])
-    return (
-        f"These data do not tell {listed([*changes])} apart: {may} if {condition}. Fix one, or use their combinations."
-    )
+        cure = "Fix it, or log what depends on it."
+        if math.isinf(direction.spread):
+            return f"These data do not determine {first}: any value within its bounds does as well. {cure}"
+        changed = sorted(end ** direction.exponents[first] for end in ends or [_usual(direction)])
+        sizes = " or ".join(_change(end) for end in changed if abs(end - 1) > _EQUAL)
+        return f"These data hardly determine {first}{f': it may be {sizes}' if sizes else ''}. {cure}"
+    said = f"These data do not tell {listed([*direction.exponents])} apart"
+    scale = next((end for end in ends or [_usual(direction)] if abs(end - 1) > _EQUAL), None)
+    if scale is not None:
+        changes = {name: _change(scale**power) for name, power in direction.exponents.items()}
+        said += f": {first} may be {changes[first]} if {listed([f'{name} is {changes[name]}' for name in others])}"
+    return f"{said}. Fix one, or use their combinations."
+
+
+def _usual(direction: Direction) -> float:
+    """A factor that tells of a direction whose ends are not known."""
+    return min(math.exp(direction.spread), _MUCH) if math.isfinite(direction.spread) else 1.1
 
 
 def listed(texts: Sequence[str]) -> str:
@@ -180,6 +195,8 @@ def listed(texts: Sequence[str]) -> str:
 
 
 def _change(factor: float) -> str:
+    if not 1 / _MUCH < factor < _MUCH:
+        return f"more than {_MUCH:g} times {'as large' if factor > 1 else 'smaller'}"
     if factor >= 1:
         return f"{factor:.2g} times as large" if factor >= 2 else f"{100 * (factor - 1):.2g} % larger"
     return f"{1 / factor:.2g} times smaller" if factor <= 0.5 else f"{100 * (1 - factor):.2g} % smaller"
@@ -204,12 +221,13 @@ def words(note: Note) -> str:
     """
     values = dict(note.values)
     if note.code is NoteCode.INTERCHANGEABLE:
-        spread = float(values.pop("@spread"))
-        return direction_words(Direction({name: float(value) for name, value in values.items()}, spread))
+        spread, low, high = (float(values.pop(name, usual)) for name, usual in _OF_DIRECTION.items())
+        return direction_words(Direction({name: float(value) for name, value in values.items()}, spread, (low, high)))
     if note.code is NoteCode.INTERVAL_WIDTHS:
         values = {"widths": ", ".join(f"{name} {value:.2g}" for name, value in values.items())}
     others = float(values.get("others", 0.0))
     values["more"] = f" and {others:.0f} more" if others else ""
+    values["next_to"] = f" beside {values['beside']}" if "beside" in values else ""
     values |= {"shown": _shown(note)} if {"value", "bound"} & values.keys() else {}
     text = _WORDS[note.code].format_map(values)
     return f"{values['at']:g} Hz: {text}" if "at" in values else text

@@ -13,6 +13,7 @@ from pysim.identify import HALF_95
 from pysim.io import shown_unit
 from pysim.present import style
 from pysim.present.charts import LOOKS, Chart, axis, chart, level_band, plain, unit_text
+from pysim.present.notes import USES
 from pysim.types import BadInput, Record, RecordFit
 from pysim.types.answer import Failure
 
@@ -73,8 +74,13 @@ def beside_figure(sides: Sequence[Side], part: slice = slice(None), *, hidden: S
     for j in range(len(names)):
         handles = _signal(axes[0, j], sides, j, part)
         _residual(axes[1, j], [one for one in sides if one.name not in hidden], j, part)
+    axes[0, 0].set_title(_title(sides[0].record), fontsize=style.SMALL, loc="left")
     style.legend_above(figure, handles, ["measured", *(one.words for one in sides)])
     return figure
+
+
+def _title(log: RecordFit) -> str:
+    return f"{log.source} ({USES[log.use]})"
 
 
 def _signal(axes: Axes, sides: Sequence[Side], j: int, part: slice) -> list[Artist]:
@@ -153,14 +159,25 @@ def beside_chart(beside: Mapping[str, RecordFit]) -> Chart:
     Args:
         beside: name of a model -> the log beside it.
     """
-    log = next(iter(beside.values())).measured
+    first = next(iter(beside.values()))
+    log = first.measured
     models = [
         (key, f"{name}: {_percent(one)}", one.simulated.time, one.simulated.values, one.residual.values)
         for (name, one), key in zip(beside.items(), cycle(_MODELS), strict=False)
     ]
     lines = compared_lines(log.units, log.time, log.values, models)
     shown = [shown_unit(unit)[0] for unit in log.units]
-    return overlay_chart(log.names, shown, [(key, words) for key, words, *_ in models], traces(lines))
+    found = overlay_chart(log.names, shown, [(key, words) for key, words, *_ in models], traces(lines))
+    layout: dict[str, Any] = found["layout"]
+    top = {
+        "text": plain(_title(first)),
+        "x": 0.02,
+        "yref": "container",
+        "y": 0.99,
+        "yanchor": "top",
+        "font": {"size": 13},
+    }
+    return {**found, "layout": {**layout, "title": top, "margin": {**layout["margin"], "t": 52}}}
 
 
 def time_response_figure(records: Mapping[str, Record], signals: Sequence[str]) -> Figure:

@@ -69,10 +69,12 @@ class Direction:
     Args:
         exponents: parameter -> exponent; multiplying each by s to its exponent leaves the compared signals as they are.
         spread: standard deviation of ln s; infinite where nothing at all changes.
+        reach: least and largest s with which every parameter stays inside its 95 percent interval, and so its bounds.
     """
 
     exponents: Mapping[str, float]
     spread: float
+    reach: tuple[float, float] = (0.0, math.inf)
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "exponents", FrozenMapping(self.exponents))

@@ -20,12 +20,12 @@ class NoteCode(Enum):
     )
     NOT_SETTLED = "not_settled"  # record, others (how many more): its first period is unlike those after it
     NOT_SIMULATED = "not_simulated"  # record, reason (what the run said): the model could not be run through it
-    NOT_TRIED = "not_tried"  # effect, reason (a code): it has no slot, does not compile, disturbs the others
+    NOT_TRIED = "not_tried"  # effect, reason; and beside what, where it was tried beside less
     HELD = "held"  # parameter: the data do not determine it, intervals hold it where it stands
     AT_BOUND = "at_bound"  # parameter, bound, value, unit
     BEYOND_BOUND = "beyond_bound"  # effect: it gains, and is not named since it would end beyond its bounds
     POOR_FIT = "poor_fit"  # signal, factor: its residual over its noise
-    INTERCHANGEABLE = "interchangeable"  # parameter -> exponent, and "@spread": the data do not tell them apart
+    INTERCHANGEABLE = "interchangeable"  # parameter -> exponent, "@spread", "@low" and "@high"
     CORRELATED = "correlated"  # first, second, correlation: two estimates that are hardly told apart
     NOT_AT_REST = "not_at_rest"  # record: a log that does not begin at rest, as it was taken
     USED_TO_CHOOSE = "used_to_choose"  # records: chose between models, and no others are held out

@@ -37,6 +37,7 @@ class SessionParts:
         libraries: the user's own, beside the one that comes along.
         notes: what was assumed.
         rested: whether logs begin near rest, where they do not say it themselves; else as states were set.
+        begins: free parameter -> where the search begins, if not at the model's value.
     """
 
     model: Model
@@ -52,6 +53,7 @@ class SessionParts:
     libraries: tuple[Path, ...]
     notes: tuple[Note, ...]
     rested: bool = True
+    begins: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def model_name(self) -> str:
@@ -165,6 +167,7 @@ def session_of(parts: SessionParts, settings: Settings | None = None) -> Session
         notes=parts.notes,
         settings=settings,
         build_law=parts.variants.probed if parts.variants else None,
+        begins=parts.begins,
     )
 
 

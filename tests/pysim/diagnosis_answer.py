@@ -1,5 +1,7 @@
 """A diagnosis whose every number is known: a biased damping, an offset that was missing, and noise of size one."""
 
+from dataclasses import replace
+
 import numpy as np
 
 from pysim.types import (
@@ -136,6 +138,16 @@ def found_offset(**changes: object) -> Diagnosis:
         "seconds": {"refit": 1.5},
     }
     return Diagnosis(**(values | changes))  # type: ignore[arg-type]
+
+
+def found_two() -> Diagnosis:
+    """The same with a second effect, toy.rub, that joined after the offset and is less costly to leave out."""
+    one = found_offset()
+    rub = replace(OFFSET, name="toy.rub", description="Rubbing (toy.rub)")
+    stages = (*one.history, replace(one.history[-1], step="toy.rub"))
+    rivals = (*one.rivals, Rival(("toy.offset", "toy.rub"), 90.0, 1e-9, 1.0, True, {"F_o": 0.4}))
+    effects = (replace(one.effects[0], share=0.6), FoundEffect(rub, "force", one.estimates[-1:], 0.4))
+    return replace(one, effects=effects, history=stages, rivals=rivals)
 
 
 def nothing(**changes: object) -> Diagnosis:

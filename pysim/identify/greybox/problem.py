@@ -152,7 +152,9 @@ def problem(
         floors |= own
     _check_records(space, observations)
     if not any(one.use == "fit" for one in observations):
-        raise BadInput('fit: no record is for fitting; give at least one use = "fit" in dataset.toml')
+        raise BadInput(
+            'fit: no record is for fitting; give at least one use = "fit" in dataset.toml, in Python hold out fewer'
+        )
     return Problem(model, space, tuple(observations), floors, tuple(dict.fromkeys(notes)), treatment.noise, specified)
 
 

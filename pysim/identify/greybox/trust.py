@@ -22,11 +22,13 @@ _SAID = (NoteCode.NOT_AT_REST, NoteCode.NOT_SIMULATED)
 def fit_warnings(fit: Fit) -> tuple[Note, ...]:
     """Reasons why the parameters or their intervals may be wrong; none for a fit that can be trusted.
 
-    The residuals are far above the noise, a parameter is at a bound, parameters are nearly interchangeable, a log
-    did not begin at rest, a record could not be simulated, or the search ended before it had converged.
+    The residuals are far above the noise, a parameter is at a bound or has none, parameters are nearly interchangeable,
+    a log did not begin at rest, a record could not be simulated, or the search ended before it had converged.
     """
     found = [*_poor(fit.records, fit.misfit), *(note for note in fit.notes if note.code in _SAID)]
     found += [*_open(fit), *_correlated(fit)]
+    endless = [one.name for one in fit.estimates if math.isinf(one.lower) and math.isinf(one.upper)]
+    found += [Note(NoteCode.UNBOUNDED, {"parameters": ", ".join(endless)})] if endless else []
     if fit.outcome in (FitOutcome.STALLED, FitOutcome.ITERATION_LIMIT):
         found.append(Note(NoteCode.SEARCH_GAVE_UP, {"evaluations": float(fit.iterations)}))
     return tuple(dict.fromkeys(found))
@@ -41,7 +43,10 @@ def _open(found: Fit | ErrorStep) -> Iterator[Note]:
     """Notes on parameters at a bound, and on parameters that the data do not separate."""
     yield from (at_bound(one) for one in found.estimates if one.at)
     for one in found.undetermined:
-        yield Note(NoteCode.INTERCHANGEABLE, {**one.exponents, "@spread": one.spread})
+        yield Note(
+            NoteCode.INTERCHANGEABLE,
+            {**one.exponents, "@spread": one.spread, "@low": one.reach[0], "@high": one.reach[1]},
+        )
 
 
 def at_bound(one: Estimate) -> Note:

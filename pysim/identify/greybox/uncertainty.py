@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,7 @@ from pysim.identify.greybox.identifiability import EXACT, Identifiability, ident
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.residuals import BEFOREHAND, Point
 from pysim.identify.greybox.settings import FitSettings
-from pysim.types import Combination, Estimate
+from pysim.types import Combination, Direction, Estimate
 
 Array = NDArray[np.float64]
 
@@ -82,6 +82,7 @@ def uncertainty(space: ParameterSpace, point: Point) -> Uncertainty:
     ]
     columns = (space.keys, space.units, *(a.tolist() for a in (value, space.start, space.lower, space.upper, std)))
     estimates = tuple(Estimate(*row) for row in zip(*columns, intervals, at, strict=True))
+    known = replace(known, directions=tuple(replace(one, reach=reach(one, estimates)) for one in known.directions))
     covariance = logarithmic * np.outer(relative, relative)
     covariance[open_, :] = covariance[:, open_] = math.nan
     half = np.array([_quantile(f) for f in freedom])
@@ -90,6 +91,20 @@ def uncertainty(space: ParameterSpace, point: Point) -> Uncertainty:
         ratio = np.where(open_ | (white == 0), math.nan, half * std / relative / white)
     combinations = _combinations(space, value, known, found[1].matrix, float(np.median(half)) if half.size else 0.0)
     return Uncertainty(estimates, covariance, known, combinations, ratio, half, found[0].blocks)
+
+
+def reach(direction: Direction, estimates: Sequence[Estimate]) -> tuple[float, float]:
+    """How far along a direction its parameters stay inside their intervals; parameters at zero tell nothing of that."""
+    low, high = 0.0, math.inf
+    for one in estimates:
+        power = direction.exponents.get(one.name, 0.0)
+        if not power or not one.value:
+            continue
+        ends = (max(end / one.value, 0.0) for end in one.interval)
+        none = 0.0 if power > 0 else math.inf
+        least, most = sorted(end ** (1 / power) if end else none for end in ends)
+        low, high = max(low, least), min(high, most)
+    return min(low, 1.0), max(high, 1.0)
 
 
 def _quantile(freedom: float, *, one_sided: bool = False) -> float:

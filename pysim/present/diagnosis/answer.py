@@ -12,12 +12,14 @@ from pysim.identify.greybox import step_warnings
 from pysim.io import shown_value
 from pysim.present.diagnosis.law_words import ABSORBED, formula_text, law_kind
 from pysim.present.diagnosis.words import (
+    LEFT_OUT,
     QUESTIONS,
     UNIT,
     called,
     candidates_shown,
     errors,
     found_name,
+    last_name,
     limits_words,
     next_test_sentence,
     share_text,
@@ -26,6 +28,7 @@ from pysim.present.diagnosis.words import (
     sizes,
     step_name,
     verdict_sentence,
+    verdict_words,
 )
 from pysim.present.notes import listed, sentences, words
 from pysim.present.plain_text import with_interval, wrapped
@@ -80,7 +83,7 @@ def answered(
 def text(result: Diagnosed) -> str:
     """The answer, then sizes, error by step, fit by signal, candidates, laws, what is open, and notes."""
     found = result.found
-    verdict = [f"Verdict: {found.verdict}", *wrapped(verdict_sentence(found), "  ", "  ")]
+    verdict = [f"Verdict: {verdict_words(found)}", *wrapped(verdict_sentence(found), "  ", "  ")]
     head = "\n".join(wrapped(result.answer) if result.answer else verdict)
     parts = (_effects, _history, _signals, _candidates, _detectable, _laws, _open)
     return "\n\n".join([head, *filter(None, ("\n".join(part(found)) for part in parts))])
@@ -127,7 +130,7 @@ def _effects(diagnosis: Diagnosis) -> Iterator[str]:
     if diagnosis.effects:
         yield "Effects, what costs most to leave out first"
     for one in diagnosis.effects:
-        yield f"  {found_name(one)}{'' if one.share is None else f'  {share_text(one.share)} of the misfit'}"
+        yield f"  {found_name(one)}{'' if one.share is None else f'  {LEFT_OUT} {share_text(one.share)} of the misfit'}"
         for name, size, ends, unit in sizes(one):
             value, low, high = with_interval(size, ends, 4)
             yield f"    {name} = {value}{'' if unit == '1' else f' {unit}'}, 95 % from {low} to {high}"
@@ -144,7 +147,7 @@ def _history(diagnosis: Diagnosis) -> Iterator[str]:
 def _signals(diagnosis: Diagnosis) -> Iterator[str]:
     rows = signal_rows(diagnosis.history[-1].records) if diagnosis.history else []
     if rows:
-        yield f"Signals, {step_name(diagnosis.history[-1].step).removeprefix('+ ')}"
+        yield f"Signals of the model {last_name(diagnosis)}"
     for name, use, residual, percent, rms, unit in rows:
         fit = "" if math.isnan(percent) else f"  fit {percent:.1f} %"
         yield f"  {name:<20}  {use:<8}  {size_text(residual):>7} x noise{fit}  rms {shown_value(rms, unit, '.3g')}"
@@ -156,7 +159,7 @@ def _candidates(diagnosis: Diagnosis) -> Iterator[str]:
     names = [called(*row.effects) for row in rows]
     width = max([24, *map(len, names)])
     if names:
-        yield f"{'Candidates':<{width + 2}}  explains  gain less penalty (nats)"
+        yield f"{'Candidates, added':<{width + 2}}  explains  gain less penalty (nats)"
     for name, row in zip(names, rows, strict=True):
         yield f"  {name:<{width}}  {100 * row.explained:6.1f} %  {row.score:10.4g}{'  estimated' * (not row.refitted)}"
 

@@ -11,10 +11,12 @@ from pysim.present.diagnosis.answer import Diagnosed, files
 from pysim.present.diagnosis.law_words import formula_text, law_kind, law_sentence
 from pysim.present.diagnosis.words import (
     BEYOND,
+    LEFT_OUT,
     called,
     candidates_shown,
     chance_text,
     found_name,
+    last_name,
     limits_words,
     next_test_sentence,
     share_text,
@@ -57,7 +59,7 @@ def page(result: Diagnosed, drawings: Sequence[Drawing], redo: str) -> str:
     parts = [statement(result.answer or verdict_sentence(diagnosis)), *section("error", "", _history(history))]
     parts += _effects(diagnosis.effects)
     parts += section("learned", "What the data say of the missing law", *_laws(diagnosis))
-    parts += section("records", "Measured and simulated", _signals(history[-1]) if history else "")
+    parts += section("records", "Measured and simulated", _signals(diagnosis) if history else "")
     parts += section(
         "where", f"Where the {'refitted model' if refitted else 'model as it is'} fails", _where(diagnosis)
     )
@@ -91,7 +93,7 @@ def _effects(effects: Sequence[FoundEffect]) -> list[str]:
         for name, value, ends, unit in sizes(one):
             texts = with_interval(value, ends)
             rows.append([found_name(one), name, *texts, unit, "" if one.share is None else share_text(one.share)])
-    head = ["effect", "parameter", "value", "95 % from", "to", "unit", "of the misfit"]
+    head = ["effect", "parameter", "value", "95 % from", "to", "unit", f"{LEFT_OUT}, of the misfit"]
     return [*parts, table("Sizes that the measurements give", head, rows, words=[0])]
 
 
@@ -108,14 +110,14 @@ def _laws(diagnosis: Diagnosis) -> list[str]:
     return [paragraph(first), table("The best law at each place", head, rows, words=[1, 4]), *map(commands, classes)]
 
 
-def _signals(step: ErrorStep) -> str:
+def _signals(diagnosis: Diagnosis) -> str:
     rows = [
         [name, use, cell(size_text(residual), "beyond" if residual > BEYOND else ""),
          "" if math.isnan(percent) else f"{percent:.1f}", shown_value(rms, unit, ".3g")]
-        for name, use, residual, percent, rms, unit in signal_rows(step.records)
+        for name, use, residual, percent, rms, unit in signal_rows(diagnosis.history[-1].records)
     ]  # fmt: skip
     head = ["signal", "logs", "residual over noise", "fit (%)", "rms residual"]
-    return table(f"Signals of the model {step_name(step.step)}", head, rows, words=[0]) if rows else ""
+    return table(f"Signals of the model {last_name(diagnosis)}", head, rows, words=[0]) if rows else ""
 
 
 def _where(diagnosis: Diagnosis) -> str:
@@ -136,7 +138,8 @@ def _candidates(diagnosis: Diagnosis) -> list[str]:
     if not diagnosis.rivals:
         return []
     texts = [f"These data cannot tell apart: {listed([*map(called, group)])}." for group in diagnosis.ties]
-    head = ["effects", "of the misfit", "gain less penalty (nats)", "by chance", "how", "sizes there"]
+    share = "adding the last explains, of the misfit"
+    head = ["effects", share, "gain less penalty (nats)", "by chance", "how", "sizes there"]
     rows = []
     for row in candidates_shown(diagnosis):
         sizes_there = ", ".join(f"{name} {value:.4g}" for name, value in row.parameters.items())

@@ -15,6 +15,7 @@ from pysim.present.notes import USES, listed
 from pysim.types import Criterion, Diagnosis, ErrorStep, FoundEffect, Left, NextTest, NoteCode, RecordFit, Rival
 from pysim.types.answer import NONE, PRIOR, REFIT, UNKNOWN, PlannedTest
 
+LEFT_OUT = "leaving it out costs"  # a share of the misfit; what a candidate explains is what adding it takes
 UNIT = "standard deviations of the noise"
 BEYOND = 1.5  # residual above which a model fails, though wider limits may hold
 _BY_TABLE = (FREQUENCY_CRITERIA, TIME_CRITERIA)
@@ -24,6 +25,21 @@ _UNITS = {"%": "% of full scale", "deg": "degrees"}
 def step_name(step: str) -> str:
     """A step of the error history as people call it."""
     return {PRIOR: "as it is", REFIT: "refitted"}.get(step, f"+ {called(*step.split(' + '))}")
+
+
+def last_name(diagnosis: Diagnosis) -> str:
+    """The last model of the error history by all that it has: the history names each step by its last part alone."""
+    if diagnosis.last is None:
+        return step_name(diagnosis.history[-1].step) if diagnosis.history else ""
+    steps = [one.step for one in diagnosis.history if one.step not in (PRIOR, REFIT)]
+    parts = [called(part) for step in steps for part in step.split(" + ")]
+    names = list(dict.fromkeys([*parts[:-1], *map(found_name, diagnosis.effects), parts[-1]]))
+    return f"with {listed(names)}" if len(names) < 3 else f"with all {len(names)} additions"
+
+
+def verdict_words(diagnosis: Diagnosis) -> str:
+    """The verdict in a few words: every effect that is missing."""
+    return listed([*map(found_name, diagnosis.effects)]) or diagnosis.verdict
 
 
 def called(*names: str) -> str:

@@ -1,6 +1,7 @@
 """First-order gains against refits, for effects that are linear in their strength."""
 
 import math
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from pathlib import Path
@@ -9,17 +10,21 @@ import numpy as np
 import pytest
 
 from pysim.diagnosis import rivals
-from pysim.diagnosis.candidate import Models
+from pysim.diagnosis.candidate import Models, Refused
+from pysim.diagnosis.left import Floors
 from pysim.diagnosis.refit import FinalFit, begin, converged
 from pysim.diagnosis.screen import Screened, Sizes, best_of_each, screen, screened
+from pysim.diagnosis.search import Found
 from pysim.diagnosis.session import session
 from pysim.diagnosis.settings import Settings
 from pysim.diagnosis.starts import Starts
+from pysim.diagnosis.verdict import notes_of
 from pysim.effects import read_catalogue
-from pysim.types import Record
+from pysim.present.notes import words
+from pysim.types import BadInput, Effect, Model, Record
 from pysim.workflow.variants import Variants
 from tests.known_answers.plants import PLANTS
-from tests.pysim.diagnosis.plants import FINE, catalogue, given, measured, refitted, stopped
+from tests.pysim.diagnosis.plants import FINE, catalogue, given, measured, refitted, stopped, variants
 
 # Hardly there, it acts at the largest places alone; at its usual size, in the middle.
 SIDE = """
@@ -48,6 +53,26 @@ def base() -> FinalFit:
 
 def by_name() -> dict[str, Screened]:
     return {one.effect.name: one for one in best_of_each(screen(models(), lambda transient: base(), FINE))}
+
+
+def test_what_fits_beside_the_base_model_alone_is_refused_beside_the_other() -> None:
+    own, names = models().session, ("mass.bias", "mass.drag")
+
+    def single(effects: Sequence[Effect]) -> tuple[Model, Mapping[str, str]]:
+        if len(effects) > 1:
+            raise BadInput("share a slot")
+        return variants("mass").build(effects)
+
+    chosen = tuple(effect for effect in own.catalogue if effect.name in names)
+    alone = Models(replace(own, catalogue=chosen, build=single))
+    assert {one.effect.name for one in screen(alone, lambda transient: base(), FINE)} == {*names}
+    assert alone.refused == {}
+    screen(alone, lambda transient: refitted(alone, "mass.bias"), FINE)
+    assert alone.refused == {"mass.drag": Refused("share a slot", ("mass.bias",))}
+    first, beside = notes_of(Found(base(), base(), (), Floors()), (), {"e": Refused("why"), **alone.refused}, own)
+    assert (first.values, beside.values["beside"]) == ({"effect": "e", "reason": "why"}, "mass.bias")
+    assert "beside mass.bias" in words(beside)
+    assert "beside" not in words(first)
 
 
 def at_size(size: float) -> Screened:

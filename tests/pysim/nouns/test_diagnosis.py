@@ -39,6 +39,16 @@ def test_a_fit_that_warned_is_trusted_once_the_effect_is_there(why: Diagnosis, f
     assert low < FRICTION < high
 
 
+def test_of_a_fit_the_model_before_it_is_as_it_is_and_the_search_begins_at_what_was_fitted(
+    why: Diagnosis, fitted: Fit, mass: Model, data: Dataset
+) -> None:
+    (untouched,) = (row["x noise"] for row in pysim.compare(mass, data).table if row["use"] == "fitted")
+    assert why.steps["fitted"][0] == pytest.approx(untouched, rel=0.01)
+    assert why.steps["fitted"][0] > 1.05 * why.steps["fitted"][1]
+    assert [one.start for one in why.found.estimates][:3] == [one.start for one in fitted.found.estimates][:3]
+    assert why.parts.begins == fitted.values
+
+
 def test_it_prints_draws_and_is_reported(why: Diagnosis, tmp_path: Path) -> None:
     assert max(len(repr(why)), len(why._repr_html_())) < 2000
     assert "toy.friction" in repr(why)

@@ -70,7 +70,7 @@ def test_errors_of_the_integration_do_not_pass_for_missing_physics(mass: Model) 
 
 
 def test_a_parameter_at_its_bound_is_said(mass: Model) -> None:
-    found = pysim.fit(mass.free("d", "k", m=(0.5, 0.9)).set(m=0.8), measured(3, "toy.friction", F_c=0.0))
+    found = pysim.fit(mass.set(m=0.8).free("d", "k", m=(0.5, 0.9)), measured(3, "toy.friction", F_c=0.0))
     assert found.table.row("m")["remark"] == "AT BOUND"
     assert any("m stopped at its bound" in text for text in found.warnings)
     assert "AT BOUND" in repr(found)
@@ -141,6 +141,12 @@ def test_what_stands_still_or_is_not_free_is_refused(mass: Model, data: Dataset)
 
 
 def test_it_draws_and_is_reported(fitted: Fit, tmp_path: Path) -> None:
+    worst, other = sorted(fitted.found.records, key=lambda one: -one.rms["x"])
+    assert worst.use == "fit"  # so that what is drawn is not the log that was held out
+    for log, drawn in (("", worst), (other.source, other)):
+        assert fitted.plot(log=log).axes[0].get_title(loc="left").startswith(drawn.source)
+        layout = fitted.plot(log=log, interactive=True).layout
+        assert layout.title.text.startswith(drawn.source)
     assert len(fitted.plot().axes) == 2
     assert fitted.plot("parameters").axes
     assert fitted.plot("correlation").axes

@@ -109,6 +109,23 @@ def test_bounds_that_are_given_are_those_that_a_value_stays_in(mass: Model) -> N
     assert wider.fix("m").values == {"m": 0.1}
 
 
+def test_nothing_to_free_is_refused(mass: Model) -> None:
+    with pytest.raises(BadInput, match=r"model\.free\('m', 'd', 'k'\)"):
+        mass.free()
+
+
+@pytest.mark.parametrize(("low", "high"), [(1.5, 3.0), (6.0, 8.0)])
+def test_bounds_beside_the_value_are_refused_with_a_line_that_mends_it(mass: Model, low: float, high: float) -> None:
+    """m is 1 kg between 0.5 and 5."""
+    with pytest.raises(BadInput, match="m = 1 is outside") as refused:
+        mass.free(m=(low, high))
+    mended = eval(str(refused.value).split("too: ")[1], {"model": mass})
+    assert mended.bounds["m"] == (low, high)
+    assert low < mended.values["m"] < high
+    friction = mass.with_effects("toy.friction")  # off, and fitted from its usual size of 0.3 N
+    assert friction.free(**{"force.F_c": (0.1, 2.0)}).bounds["force.F_c"] == (0.1, 2.0)
+
+
 def test_the_start_of_a_state_may_be_free_and_is_shown(mass: Model) -> None:
     assert mass.free("x").table.row("x")["value"] == 0.0
     assert "x" in repr(mass.free("x"))

@@ -12,21 +12,36 @@ import pytest
 
 from pysim.present import Drawing, data, diagnosis, text
 from pysim.present.diagnosis import Diagnosed, figures
+from pysim.present.diagnosis.figures.records import steps_shown
 from pysim.present.diagnosis.law_words import ABSORBED, formula_text, law_kind, law_sentence
 from pysim.present.diagnosis.words import (
+    LEFT_OUT,
     added_sentence,
     called,
     comparison_sentence,
+    last_name,
     learned_sentence,
     limits_sentence,
     ranking_sentence,
     signal_rows,
     sizes,
     verdict_sentence,
+    verdict_words,
 )
-from pysim.types import Diagnosis, Effect, ErrorStep, FoundEffect, Left, NextTest, PlannedTest, Rival
+from pysim.types import (
+    Diagnosis,
+    Effect,
+    ErrorStep,
+    FoundEffect,
+    Left,
+    NextTest,
+    PlannedTest,
+    Rival,
+    read_step,
+    step_data,
+)
 from pysim.types.answer import StandsOut
-from tests.pysim.diagnosis_answer import LAW, OFFSET, estimate, found_offset, nothing, step
+from tests.pysim.diagnosis_answer import LAW, OFFSET, estimate, found_offset, found_two, nothing, step
 
 PLANNED = PlannedTest(True, 0.25, 1.5, 3.0, "mm", 16.0)
 TEST = NextTest(("toy.offset", "toy.twin"), 42.0, (PLANNED,), ("x", "u"), {"u": (0.02, "V")}, 'name = "ramp"')
@@ -52,6 +67,26 @@ def test_one_effect_is_it_and_several_are_them_however_many_steps_there_were() -
     one = found_offset(history=steps)
     assert "With it the residual falls from 3.00 to 1.00 on fitted logs" in verdict_sentence(one)
     assert "With them the residual" in verdict_sentence(replace(one, effects=one.effects * 2))
+
+
+def test_a_model_is_named_by_all_that_it_has_though_its_step_is_named_by_what_joined_last() -> None:
+    two = found_two()
+    assert last_name(two) == "with toy.offset and toy.rub"
+    assert last_name(found_offset()) == "with toy.offset"
+    assert last_name(nothing()) == "refitted"
+    assert verdict_words(two) == "toy.offset and toy.rub"
+    assert verdict_words(nothing()) == "none"
+    assert steps_shown(two)[-1][0] == last_name(two)
+    kept = replace(two, history=(*two.history[:2], replace(two.history[-1], step="law")))  # the offset has no step
+    assert last_name(kept) == "with all 3 additions"
+
+
+def test_what_leaving_out_costs_and_what_adding_takes_have_names_of_their_own() -> None:
+    said = text(found_two())
+    assert [line for line in said.splitlines() if "of the misfit" in line and LEFT_OUT not in line] == []
+    heads = re.findall("<th[^>]*>([^<]*)</th>", page(found_two()))
+    shares = [head for head in heads if "misfit" in head]
+    assert len(shares) == len(set(shares)) == 2
 
 
 def test_each_use_of_logs_has_one_word() -> None:
@@ -275,6 +310,14 @@ def test_a_model_without_limits_is_not_judged() -> None:
     for judge in (text, page, added_sentence, comparison_sentence, lambda one: next(figures(Diagnosed(one))).caption):
         assert re.search(r"Tables? 1\.", judge(found))
         assert not re.search(r"thesis|Tables? 1\.|limits?\b", judge(bare), re.IGNORECASE)
+
+
+def test_json_says_neither_yes_nor_no_where_no_limit_was_judged() -> None:
+    judged, lost = (step("prior", 25.0, None, size) for size in (0.1, 0.9))
+    bare = replace(judged, criteria={})
+    assert [step_data(one)["passes"] for one in (judged, lost, bare)] == [True, False, None]
+    assert step_data(replace(bare, passes=False, not_simulated=1))["passes"] is False
+    assert read_step(step_data(bare)).passes
 
 
 def test_json_has_each_sentence_beside_its_numbers() -> None:

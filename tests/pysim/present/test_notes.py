@@ -108,6 +108,28 @@ def test_what_is_not_told_apart_comes_with_its_sizes(
     assert all(one in text for one in said)
 
 
+@pytest.mark.parametrize(
+    ("exponents", "spread", "reach", "said"),
+    [
+        ({"T": 1.0, "k": 2.0}, 57.0, (0.1, 7.0), ["T may be 7 times as large if k is 49 times as large"]),
+        ({"T": 1.0, "k": -2.0}, 57.0, (0.1, 1.0), ["T may be 10 times smaller if k is 1e+02 times as large"]),
+        ({"T": 1.0, "k": 1.0}, 57.0, (1.0, 1.0), ["tell T and k apart. Fix"]),
+        ({"T": 1.0, "k": 1.0}, 99.0, (0.0, math.inf), ["T may be more than 1000 times as large"]),
+        ({"T": 1.0}, 0.6, (1.0, 5.6), ["it may be 5.6 times as large."]),
+        ({"T": 1.0}, 0.6, (0.5, 1.4), ["it may be 2 times smaller or 40 % larger."]),
+        ({"k": 1.0}, math.inf, (0.0, 20.0), ["any value within its bounds"]),
+        ({"k": 1.0}, 80.0, (0.0, 20.0), ["it may be 20 times as large."]),
+    ],
+)
+def test_what_is_not_told_apart_is_said_up_to_the_ends_of_the_intervals(
+    exponents: dict[str, float], spread: float, reach: tuple[float, float], said: list[str]
+) -> None:
+    one = Direction(exponents, spread, reach)
+    note = Note(NoteCode.INTERCHANGEABLE, {**exponents, "@spread": spread, "@low": reach[0], "@high": reach[1]})
+    assert all(part in direction_words(one) for part in said)
+    assert words(note) == direction_words(one)
+
+
 def test_parameters_at_their_bounds_share_a_sentence() -> None:
     ends = [
         Note(NoteCode.AT_BOUND, {"parameter": name, "bound": 60.0, "value": 60.0, "unit": "kg"}) for name in ("m", "n")

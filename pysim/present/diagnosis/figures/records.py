@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from pysim.present import style
+from pysim.present.diagnosis.words import last_name
 from pysim.present.overlay import Side, beside_figure
 from pysim.types import BadInput, Diagnosis, ErrorStep, RecordFit
 from pysim.types.answer import PRIOR, REFIT
@@ -41,7 +42,7 @@ def steps_shown(diagnosis: Diagnosis) -> list[tuple[str, ErrorStep, str]]:
     looks = {PRIOR: ("as it is", style.LIMIT), REFIT: ("refitted", style.COLOURS[1])}
     steps = [(*looks[step.step], step) for step in diagnosis.history if step.step in looks]
     if diagnosis.last is not None:
-        steps.append((f"with {diagnosis.last.step}", style.COLOURS[0], diagnosis.last))
+        steps.append((last_name(diagnosis), style.COLOURS[0], diagnosis.last))
     return [(name, step, colour) for name, colour, step in steps if step.records]
 
 

@@ -57,6 +57,12 @@ def test_bounds_open_directions_lost_records_and_a_search_that_gave_up_are_said(
     assert (bound.values["parameter"], bound.values["bound"]) == ("T", 0.01)
 
 
+def test_a_parameter_without_any_bound_is_said() -> None:
+    endless = replace(KNOWN[0], lower=-math.inf, upper=math.inf)
+    (note,) = fit_warnings(replace(good(), estimates=(endless, replace(KNOWN[1], upper=math.inf))))
+    assert (note.code, note.values["parameters"]) == (NoteCode.UNBOUNDED, "K")
+
+
 @pytest.mark.parametrize(("share", "is_said"), [(0.2, True), (0.01, False)])
 def test_a_correlation_is_said_where_neither_parameter_is_well_known(share: float, is_said: bool) -> None:
     estimates = tuple(replace(one, std=share * one.value) for one in KNOWN)

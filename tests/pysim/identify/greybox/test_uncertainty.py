@@ -5,7 +5,8 @@ import pytest
 from scipy.stats import t as student
 
 from pysim.identify.greybox.residuals import Point
-from pysim.identify.greybox.uncertainty import Uncertainty, uncertainty
+from pysim.identify.greybox.uncertainty import Uncertainty, reach, uncertainty
+from pysim.types import Direction, Estimate
 from tests.pysim.identify.greybox.functions import space
 
 NORMAL, NORMAL_ONE_SIDED = 1.959964, 1.644854  # 95 percent
@@ -105,3 +106,22 @@ def test_intervals_hold_the_truth_in_white_and_in_coloured_noise(memory: float) 
 def test_a_ratio_tells_of_coloured_noise() -> None:
     noise = np.repeat(np.random.default_rng(1).normal(size=60), 10)
     assert slope_interval(noise).ratio[1] > 1.5
+
+
+def test_a_direction_reaches_to_the_first_end_of_an_interval_that_it_meets() -> None:
+    """T from 2 to 20 at 4, k from 1 to 8 at 2: T alone s = 0.5 to 5; with k by s^2, 0.707 to 2; by s^-1, 0.5 to 2."""
+    ends = {"T": (4.0, 2.0, 20.0), "k": (2.0, 1.0, 8.0), "z": (0.0, -1.0, 1.0)}
+    known = [
+        Estimate(name, "1", value, value, low, high, 1.0, (low, high)) for name, (value, low, high) in ends.items()
+    ]
+    for exponents, expected in (
+        ({"T": 1.0}, (0.5, 5.0)),
+        ({"T": 1.0, "k": 2.0}, (0.5**0.5, 2.0)),
+        ({"T": 1.0, "k": -1.0}, (0.5, 2.0)),
+        ({"T": 1.0, "z": 1.0}, (0.5, 5.0)),
+        ({"z": 1.0}, (0.0, np.inf)),
+    ):
+        assert reach(Direction(exponents, 50.0), known) == pytest.approx(expected)
+    leak = Estimate("k", "1", 2.0, 2.0, 0.0, 10.0, 1.0, (0.0, 10.0))
+    assert reach(Direction({"k": 1.0}, np.inf), [leak]) == pytest.approx((0.0, 5.0))
+    assert reach(Direction({"k": -1.0}, np.inf), [leak]) == pytest.approx((0.2, np.inf))
