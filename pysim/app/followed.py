@@ -56,5 +56,5 @@ class Followed:
         return {
             "names": one.measured.names, "units": one.measured.units, "time": one.measured.time[self.at],
             "measured": one.measured.values[self.at].T, "simulated": one.simulated.values[self.at].T,
-            "left": left[self.at].T, "rms": np.sqrt(np.mean(left**2, axis=0)).tolist(),
+            "left": left[self.at].T, "rms": np.sqrt(np.nanmean(left**2, axis=0)).tolist(),
         }  # fmt: skip

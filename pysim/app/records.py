@@ -16,7 +16,7 @@ from pysim.app.answers import STEPS, Answer
 from pysim.io import shown_unit
 from pysim.io.prepare.log_names import PART
 from pysim.present.charts import LOOKS, Chart
-from pysim.present.overlay import Line, compared_lines, overlay_chart, traces
+from pysim.present.overlay import Line, compared_lines, drawn, overlay_chart, traces
 from pysim.types import Dataset, MeasuredRecord, Record
 
 Array = NDArray[np.float64]
@@ -52,7 +52,7 @@ class Overlay:
             x, y = decimated(line.time[part], line.values[part], most)
             exact = exact and x.size == line.time[part].size
             xs.append(x.tolist())
-            ys.append([None if math.isnan(one) else one for one in y.tolist()])  # an empty cell
+            ys.append(drawn(y))
         return xs, ys, exact
 
     def figure(self) -> Chart:
@@ -151,7 +151,8 @@ def decimated(time: Array, values: Array, most: int) -> tuple[Array, Array]:
         return time, values
     stretches = max(most // 2 - 1, 1)
     edges = np.linspace(0, time.size, stretches + 1).astype(np.intp)
-    low = np.array([a + int(np.argmin(values[a:b])) for a, b in pairwise(edges.tolist())])
-    high = np.array([a + int(np.argmax(values[a:b])) for a, b in pairwise(edges.tolist())])
+    under, over = (np.where(np.isnan(values), end, values) for end in (math.inf, -math.inf))  # an empty cell is neither
+    low = np.array([a + int(np.argmin(under[a:b])) for a, b in pairwise(edges.tolist())])
+    high = np.array([a + int(np.argmax(over[a:b])) for a, b in pairwise(edges.tolist())])
     kept = np.unique(np.concatenate([[0], low, high, [time.size - 1]]))
     return time[kept], values[kept]

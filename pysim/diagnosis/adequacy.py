@@ -48,7 +48,8 @@ def _samples(record: MeasuredRecord, dataset: Dataset) -> int:
     """How many numbers of a record can be fitted: gain and phase per frequency, or samples times outputs."""
     if isinstance(record.data, FrequencyResponse):
         return 2 * record.data.frequency.size
-    return record.data.time.size * len(dataset.columns(record, "output"))
+    data = record.data
+    return sum(int(np.count_nonzero(np.isfinite(data[name]))) for name in dataset.columns(record, "output"))
 
 
 def _outputs(record: MeasuredRecord, dataset: Dataset) -> Sequence[str]:

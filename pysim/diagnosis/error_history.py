@@ -89,7 +89,7 @@ def held_still(fit: FinalFit) -> tuple[tuple[Estimate, ...], tuple[Direction, ..
 def root_mean_square(records: Sequence[RecordFit], use: str) -> float | None:
     """Root mean square of all residuals over their floors, of the records of one use; None if there are none."""
     values = [record.residual.values.ravel() for record in records if record.use == use]
-    return float(np.sqrt(np.mean(np.concatenate(values) ** 2))) if values else None
+    return float(np.sqrt(np.nanmean(np.concatenate(values) ** 2))) if values else None
 
 
 def beside(fit: FinalFit, simulation: Simulation) -> Compared:

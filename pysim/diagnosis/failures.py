@@ -51,7 +51,8 @@ def _own(record: RecordFit) -> Iterator[Failure]:
             continue
         for part in np.array_split(np.arange(values.size), min(_WINDOWS, values.size)):
             window = f"{residual.time[part[0]]:.4g} to {residual.time[part[-1]]:.4g} s"
-            yield Failure(record.source, signal, window, _size(values[part]))
+            if np.isfinite(values[part]).any():
+                yield Failure(record.source, signal, window, _size(values[part]))
         if values.size >= FEWEST:
             frequency, power, _ = residual_spectrum(residual.time, values)
             line = clearest(residual.time, values)
@@ -105,6 +106,8 @@ def _ranges(records: Sequence[RecordFit]) -> Iterator[Failure]:
         residual = np.concatenate([record.residual.values[:, j] for record, j in own])
         value = np.concatenate([record.simulated.values[:, j] for record, j in own])
         rate = np.concatenate([_rate(record, j) for record, j in own])
+        there = np.isfinite(residual)
+        residual, value, rate = residual[there], value[there], rate[there]
         label = "" if unit == "1" else f" {unit}"
         for what, of, per in ((name, value, label), (f"rate of {name}", rate, f"{label or ' 1'}/s")):
             for part in np.array_split(np.argsort(of, kind="stable"), _RANGES):
@@ -126,4 +129,4 @@ def _rate(record: RecordFit, column: int) -> Array:
 
 
 def _size(values: Array) -> float:
-    return math.sqrt(float(np.mean(values**2)))
+    return math.sqrt(float(np.nanmean(values**2)))

@@ -129,7 +129,11 @@ def white_floors(fit: FinalFit) -> dict[Channel, NoiseFloor]:
             square, number = rests.get((one.dataset, name), (0.0, 0.0))
             rests[one.dataset, name] = square + float(rest), number + float(samples) - float(count)
     for channel, least in problem.floors.items():
-        seen = [value for value in (white_floor(parts.get(channel, []), problem.settings),) if value is not None]
+        own = parts.get(channel, [])
+        white = white_floor(own, problem.settings)
+        if white is None:  # no stretch without a missing sample is long enough
+            white = white_floor([rest[np.isfinite(rest)] for rest in own], problem.settings)
+        seen = [] if white is None else [white]
         if channel in rests and rests[channel][1] > 0:
             seen.append(math.sqrt(rests[channel][0] / rests[channel][1]))
         if seen and min(seen) > least.sd:
@@ -157,7 +161,7 @@ def follows(fit: FinalFit, dataset: Dataset, blocks: int) -> Follows | None:
 
 
 def _columns(fit: FinalFit) -> dict[Channel, list[Array]]:
-    """Residuals of the logs over time, (n_t,) each, in the channels' units."""
+    """Residuals of the logs over time, (n_t,) each, in the channels' units; not-a-number where nothing was measured."""
     found: dict[Channel, list[Array]] = {}
     for _, rests in logs(fit):
         for channel, rest in rests.items():
@@ -166,11 +170,19 @@ def _columns(fit: FinalFit) -> dict[Channel, list[Array]]:
 
 
 def logs(fit: FinalFit) -> Iterator[tuple[str, dict[Channel, Array]]]:
-    """Source of each log over time that was fitted, and its residuals by channel."""
+    """Source of each log over time that was fitted, and its residuals by channel; of a long log, rows of triangles.
+
+    A residual is not-a-number where nothing was measured.
+    """
     left, found = of(fit), dict[str, dict[Channel, Array]]()
     for number, (one, name) in enumerate(fit.candidate.residuals(fit.simulation).series):
         if one.domain == "time" and name is not None:
-            found.setdefault(one.sources[0], {})[one.dataset, name] = left.residual[left.series == number]
+            rows = left.residual[left.series == number]
+            there = np.isfinite(one.runs[0].measured[:, one.channels.index(name)])
+            if not there.all() and rows.size == np.count_nonzero(there):
+                rows, own = np.full(there.size, np.nan), rows
+                rows[there] = own
+            found.setdefault(one.sources[0], {})[one.dataset, name] = rows
     yield from found.items()
 
 
@@ -184,6 +196,8 @@ def _regressors(fit: FinalFit, dataset: Dataset) -> Iterator[tuple[Array, dict[C
             continue
         simulated = {name: record[name] - rest for (_, name), rest in rests.items() if name in record.names}
         others = {name: record[name] for name in record.names if name not in simulated}
+        simulated = {name: _bridged(record.time, values) for name, values in simulated.items()}
+        others = {name: _bridged(record.time, values) for name, values in others.items() if np.isfinite(values).any()}
         found.append((others | simulated, rests))
     if not found:
         return
@@ -194,6 +208,12 @@ def _regressors(fit: FinalFit, dataset: Dataset) -> Iterator[tuple[Array, dict[C
     scale = whole.mean(axis=0), np.maximum(whole.std(axis=0), np.finfo(float).tiny)
     for table, (_, rests) in zip(tables, found, strict=True):
         yield _features((table - scale[0]) / scale[1], lags), rests
+
+
+def _bridged(time: Array, values: Array) -> Array:
+    """A regressor (n_t,), with straight lines where nothing was measured: there, the residual has no sample either."""
+    there = np.isfinite(values)
+    return values if there.all() else np.interp(time, time[there], values[there])
 
 
 def _features(signals: Array, lags: Sequence[int]) -> Array:
@@ -214,6 +234,7 @@ def _regression(tables: list[tuple[Array, dict[Channel, Array]]], channel: Chann
     own = [(table, rests[channel]) for table, rests in tables if channel in rests]
     table = np.concatenate([rows for rows, _ in own])
     rest = np.concatenate([values for _, values in own])
+    table, rest = table[np.isfinite(rest)], rest[np.isfinite(rest)]
     n, m = table.shape
     if n < _SAMPLES * m:
         return None

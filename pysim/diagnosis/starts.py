@@ -7,6 +7,8 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 
+import numpy as np
+
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.refit import FinalFit, Runner, begin, begun, converged, cost_at, exact
@@ -155,9 +157,10 @@ def _nuisances(models: Models) -> Iterator[Nuisance]:
     logs = [record for record in dataset.logs() if record.use == "fit" and isinstance(record.data, Record)]
     for signal in dataset.signals:
         own = [r.data for r in logs if isinstance(r.data, Record) and signal.name in r.data.names]
+        own = [log for log in own if np.isfinite(log[signal.name]).any()]
         if signal.role != "output" or not own:
             continue
-        scale = max(float(abs(record[signal.name]).max()) for record in own) or 1.0
+        scale = max(float(np.nanmax(abs(record[signal.name]))) for record in own) or 1.0
         interval = max(float((record.time[-1] - record.time[0]) / max(record.time.size - 1, 1)) for record in own)
         yield Nuisance(NuisanceKind.GAIN, dataset.name, signal.name, settings.gain_sd)
         yield Nuisance(NuisanceKind.OFFSET, dataset.name, signal.name, settings.offset_sd * scale)

@@ -40,7 +40,7 @@ def tone(fit: FinalFit, dataset: Dataset, false_alarm: float) -> float | None:
 
 
 def clearest(times: Array, rest: Array) -> tuple[float, float] | None:
-    """The most significant spectral line of a residual (n_t,).
+    """The most significant spectral line of a residual (n_t,); zero takes the place of one that is not-a-number.
 
     Returns:
         its p-value, corrected for the number of lines, and Hz; None for a short log or uneven sampling.
@@ -50,7 +50,11 @@ def clearest(times: Array, rest: Array) -> tuple[float, float] | None:
     far = lobe + _SETTINGS.beside
     if rest.size != times.size or rest.size < 8 * far or np.ptp(step) > _SETTINGS.even * step.mean():
         return None
-    power = np.abs(np.fft.rfft((rest - rest.mean()) * np.hanning(rest.size))) ** 2
+    there = np.isfinite(rest)
+    if not there.any():
+        return None
+    even = np.where(there, rest - rest[there].mean(), 0.0)
+    power = np.abs(np.fft.rfft(even * np.hanning(rest.size))) ** 2
     beside = [np.roll(power, shift) for k in range(lobe + 1, far + 1) for shift in (k, -k)]
     level = np.median(beside, axis=0) / math.log(2)  # mean of an exponential distribution, from its median
     inner = slice(far, power.size - far)

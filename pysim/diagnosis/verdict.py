@@ -89,7 +89,8 @@ def stands_out(records: Sequence[RecordFit], settings: Settings) -> StandsOut | 
     A sensor's noise is the same in all. Two variances are compared by their F test. Squares of n Gaussian residuals
     with autocorrelations rho are worth n / sum(rho^2) independent ones (Bartlett 1946).
     """
-    columns = [(one, k, rest[k][:, None]) for one in records for rest in (one.residual,) for k in rest.names]
+    rests = [(one, k, rest[k]) for one in records for rest in (one.residual,) for k in rest.names]
+    columns = [(one, k, rest[there, None]) for one, k, rest in rests for there in (np.isfinite(rest),) if there.any()]
     if not columns:
         return None
     names = np.array([f"{one.dataset}/{k}" for one, k, _ in columns])
@@ -106,12 +107,12 @@ def stands_out(records: Sequence[RecordFit], settings: Settings) -> StandsOut | 
 def hardly_explains(last: ErrorStep, settings: Settings) -> bool:
     """Whether the residual of some signal is so large that the model hardly describes the signal."""
     return any(
-        float(np.std(record.measured.values[:, j] - record.simulated.values[:, j]))
-        > settings.unexplained * float(np.std(record.measured.values[:, j]))
+        float(np.nanstd(record.measured.values[:, j] - record.simulated.values[:, j]))
+        > settings.unexplained * float(np.nanstd(record.measured.values[:, j]))
         for record in last.records
         if record.use == "fit"
         for j in range(record.measured.values.shape[1])
-        if float(np.std(record.measured.values[:, j])) > settings.near * record.noise[j]
+        if float(np.nanstd(record.measured.values[:, j])) > settings.near * record.noise[j]
     )
 
 

@@ -64,12 +64,12 @@ def frequency_deviations(
 
 
 def time_deviations(simulated: Array, measured: Array, full_scale: float) -> tuple[Deviation, ...]:
-    """The two deviations of thesis Table 1.4 for one signal.
+    """The two deviations of thesis Table 1.4 for one signal, of the samples that were measured.
 
     Args:
-        simulated, measured: (n_t,) at the same times, in the same unit.
+        simulated, measured: (n_t,) at the same times, in the same unit; not-a-number where nothing was measured.
         full_scale: value that counts as 100 percent, in that unit.
     """
-    percent = 100 * (np.asarray(simulated) - np.asarray(measured)) / full_scale
+    percent = 100 * (np.asarray(simulated) - np.asarray(measured))[np.isfinite(measured)] / full_scale
     values = (mean_deviation(percent), max_deviation(percent))
     return tuple(Deviation(criterion, value) for criterion, value in zip(TIME_CRITERIA, values, strict=True))

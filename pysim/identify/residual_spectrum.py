@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -20,7 +22,8 @@ def residual_spectrum(time: Array, values: Array) -> tuple[Array, Array, float]:
 
     Args:
         time: (n_t,) in s, evenly spaced.
-        values: (n_t,), in standard deviations of the noise; at least FEWEST.
+        values: (n_t,), in standard deviations of the noise; at least FEWEST. Where one is not-a-number, zero takes its
+            place, and the power is that of the others: exact for white noise, while a line loses some of its height.
     Returns:
         frequency (n_f,) in Hz, without zero and half the sampling rate, whose lines have half the degrees of freedom;
         power (n_f,); and the degrees of freedom of each value.
@@ -28,7 +31,8 @@ def residual_spectrum(time: Array, values: Array) -> tuple[Array, Array, float]:
     """
     from scipy import signal  # half a second to import, and only a diagnosis' picture needs it
 
-    step = sampling(time).step
+    step, there = sampling(time).step, np.isfinite(values)
+    values = np.where(there, values, 0.0) / math.sqrt(max(float(np.mean(there)), 1 / values.size))
     length = min(values.size, max(FEWEST // 2, values.size // _SEGMENTS))
     frequency, density = signal.welch(values, 1 / step, nperseg=length, detrend=False)
     count = 2 * (values.size // length) - 1

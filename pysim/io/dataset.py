@@ -34,7 +34,8 @@ def read_dataset(folder: Path | str) -> Dataset:
     Args:
         folder: holds dataset.toml, or that file itself; the files it names are relative to it.
     Returns:
-        everything in SI units or %, gains from decibels, phases in rad and continuous.
+        everything in SI units or %, gains from decibels, phases in rad and continuous. An output is not-a-number where
+        its cell is empty.
     Raises:
         BadInput: what is wrong, with file, line and remedy.
     """

@@ -164,7 +164,7 @@ def _rows(model: str, one: RecordFit) -> list[tuple[tuple[Any, ...], RecordFit]]
     from pysim.io import shown_unit
     from pysim.present.notes import USES
 
-    away = np.sqrt(np.mean((one.measured.values - one.simulated.values) ** 2, axis=0))
+    away = np.sqrt(np.nanmean((one.measured.values - one.simulated.values) ** 2, axis=0))
     rows = []
     for j, name in enumerate(one.measured.names):
         unit, factor = shown_unit(one.measured.units[j])

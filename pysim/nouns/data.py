@@ -71,10 +71,10 @@ class Data(Shown):
 
     @property
     def dataset(self) -> Dataset:
-        """What is fitted and compared: SI units or %, and every cell a number.
+        """What is fitted and compared: SI units or %. An output is not-a-number where it was not measured.
 
         Raises:
-            BadInput: a log lacks samples, with the line that fills them.
+            BadInput: an input lacks samples, with the line that fills them.
         """
         refuse_missing_samples(self.now)
         return self.now
@@ -127,13 +127,14 @@ class Data(Shown):
         """Leave out the stretch from `start` to `stop` s of a log, which becomes two; without them, all of it."""
         return self.after(Exclude(log, _number(start, "start"), _number(stop, "stop")))
 
-    def fill_gaps(self, longest: float, *, shortest: int = 10) -> Data:
-        """Fill missing samples up to `longest` s by straight lines; cut logs where more is missing.
+    def fill_gaps(self, longest: float, *signals: str, shortest: int = 10) -> Data:
+        """Fill missing samples of inputs up to `longest` s by straight lines; cut logs where more is missing.
 
         Args:
+            signals: outputs that are filled as well, for a filter. Others are not compared where a sample is missing.
             shortest: samples; pieces of fewer are left out.
         """
-        return self.after(FillGaps(number_of(longest, "longest"), shortest))
+        return self.after(FillGaps(number_of(longest, "longest"), names_of(signals, "signals"), shortest))
 
     def drop_outliers(self, sigmas: float = 8.0, *signals: str) -> Data:
         """Put straight lines in place of samples that are so many standard deviations off their neighbours."""
@@ -232,11 +233,9 @@ class Data(Shown):
 
     def _for_model(self, record: MeasuredRecord) -> MeasuredRecord:
         """A log as a model can be driven by it: its whole rows, its columns called as the model calls them."""
-        from pysim.identify.data_check import whole_rows
-
         assert isinstance(record.data, Record)
         names = tuple(self.now.signal(name).variable for name in record.data.names)
-        return replace(record, data=replace(whole_rows(record.data), names=names))
+        return replace(record, data=replace(record.data.whole_rows(self.now.columns(record, "input")), names=names))
 
     def plot(self, *, interactive: bool = False) -> Any:
         """Signals over time, a row per log and a column per unit; at most eight logs.

@@ -105,10 +105,13 @@ def _residual(axes: Axes, sides: Sequence[Side], j: int, part: slice) -> None:
         look = {"color": colour, "linewidth": 1.4, "rasterized": time.size > _MANY}
         if values.size > _COARSE:
             axes.plot(time, values, ".", color=colour, markersize=1.6, alpha=0.5, rasterized=True)
-            values = np.convolve(values, np.ones(_SMOOTH) / _SMOOTH, mode="valid")
+            there, ones = np.isfinite(values), np.ones(_SMOOTH)
+            count = np.convolve(there, ones, mode="valid")
+            sums = np.convolve(np.where(there, values, 0.0), ones, mode="valid")
+            values = np.divide(sums, count, out=np.full(sums.size, np.nan), where=count > 0.5)
             time = time[_SMOOTH // 2 : _SMOOTH // 2 + values.size]
         axes.plot(time, values, **look)
-        words.append(f"{one.name} {math.sqrt(float(np.mean(residual.values[:, j] ** 2))):.2f}")
+        words.append(f"{one.name} {math.sqrt(float(np.nanmean(residual.values[:, j] ** 2))):.2f}")
     axes.set_title(f"rms of the whole record: {', '.join(words)}", fontsize=style.SMALL, loc="left", color="#444444")
     axes.set(xlabel="Time (s)", ylabel="Residual over noise (-)")
 
@@ -234,11 +237,16 @@ def traces(lines: Sequence[Line], points: Sequence[tuple[Any, Any]] = ()) -> lis
         points: of each line, times and values to draw; all samples where there are none.
     """
     found: list[dict[str, Any]] = []
-    for line, (x, y) in zip(lines, points or [(one.time.tolist(), one.values.tolist()) for one in lines], strict=True):
+    for line, (x, y) in zip(lines, points or [(one.time.tolist(), drawn(one.values)) for one in lines], strict=True):
         legend = all(line.words != one["legendgroup"] for one in found)
         trace = signal_trace(line.key, line.words, line.panel, x, y, legend=legend, unit=line.unit)
         found.append(trace | {"legendgroup": line.words})
     return found
+
+
+def drawn(values: Array) -> list[float | None]:
+    """Heights of a line, with a gap where nothing was measured."""
+    return [None if math.isnan(one) else one for one in values.tolist()]
 
 
 def overlay_chart(

@@ -154,7 +154,7 @@ class RecordFit:
 
     @property
     def residual(self) -> Record:
-        """Measured minus simulated, in standard deviations of the noise."""
+        """Measured minus simulated, in standard deviations of the noise; not-a-number where nothing was measured."""
         values = (self.measured.values - self.simulated.values) / np.array(self.noise)
         units = ("1",) * len(self.noise)
         return Record(self.measured.time, values, self.measured.names, units, origin="measured minus simulated")
@@ -162,14 +162,16 @@ class RecordFit:
     @property
     def rms(self) -> dict[str, float]:
         """Per column, the root-mean-square residual over the noise: 1 where nothing but noise is left."""
-        sizes = np.sqrt(np.mean(self.residual.values**2, axis=0))
+        sizes = np.sqrt(np.nanmean(self.residual.values**2, axis=0))
         return dict(zip(self.measured.names, sizes.tolist(), strict=True))
 
     @property
     def fit_percent(self) -> dict[str, float]:
         """Per column, 100 (1 - |measured - simulated| / |measured - its mean|); NaN of a column that never moves."""
-        size = np.linalg.norm(self.measured.values - self.measured.values.mean(axis=0), axis=0)
-        away = np.linalg.norm(self.measured.values - self.simulated.values, axis=0)
+        moved = self.measured.values - np.nanmean(self.measured.values, axis=0)
+        size, away = (
+            np.sqrt(np.nansum(own**2, axis=0)) for own in (moved, self.measured.values - self.simulated.values)
+        )
         fit = 100 * (1 - np.divide(away, size, out=np.full(size.shape, np.nan), where=size > 0))
         return dict(zip(self.measured.names, fit.tolist(), strict=True))
 

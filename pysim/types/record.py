@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, field
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
 import numpy as np
@@ -79,6 +79,12 @@ class Record:
         if name not in self.names:
             raise BadInput(f"record has no signal {name!r}; it has {', '.join(self.names)}")
         return self.values[:, self.names.index(name)]
+
+    def whole_rows(self, names: Sequence[str] | None = None) -> Record:
+        """The rows in which no cell is empty; None: of no column."""
+        places = slice(None) if names is None else [self.names.index(name) for name in names]
+        whole = np.isfinite(self.values[:, places]).all(axis=1)
+        return self if whole.all() else replace(self, time=self.time[whole], values=self.values[whole])
 
 
 def _read_only(name: str, numbers: Array) -> Array:

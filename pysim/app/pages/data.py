@@ -19,7 +19,7 @@ from pysim.app.parts import Choice, Drop, Entry, Table, box, button, card, head,
 from pysim.app.records import measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted
-from pysim.present.data_check import assumed_between_samples, sentence
+from pysim.present.data_check import assumed_between_samples, not_compared, sentence
 from pysim.present.notes import NOT_FITTED, USES
 from pysim.types import UNITS, BadInput, Record
 from pysim.workflow import models_in
@@ -188,6 +188,8 @@ def _signals(desk: Desk) -> None:
                 _signal(desk, name, section, variables)
     for words in [*unfit(desk), *filter(None, starmap(description.uncounted, content["signals"].items()))]:
         note(words, "bad")
+    for told in not_compared(check.dataset):
+        note(told)
     for _, told in assumed_between_samples(check.dataset):
         note(f"{told} Choose what it was between samples: the difference may be far more than the noise.")
 

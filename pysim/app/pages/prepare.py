@@ -19,7 +19,7 @@ from pysim.io.toml_section import Section
 from pysim.present.data_check.words import cures, sentence
 from pysim.types import BadInput, Dataset
 
-_ALL = "all signals"
+_ALL, _INPUTS = "all signals", "all inputs"
 # What can be added to the list: word of the step, field of its number, and the number's unit or meaning.
 _KINDS: Mapping[str, tuple[str, str, str]] = {
     "turn the sign": ("flip", "", ""),
@@ -32,7 +32,8 @@ _KINDS: Mapping[str, tuple[str, str, str]] = {
     "replace outliers": ("drop_outliers", "sigmas", "standard deviations"),
     "take off the mean": ("detrend", "", ""),
 }
-_ONE, _SOME = ("scale", "delay"), ("flip", "lowpass", "drop_outliers", "detrend")  # steps that name one signal, or any
+_ONE = ("scale", "delay")  # steps that name one signal; below, those that name any
+_SOME = ("flip", "lowpass", "drop_outliers", "detrend", "fill_gaps")
 
 
 def prepare_page(desk: Desk) -> None:
@@ -167,7 +168,7 @@ class _View:
                 Choice("kind of step", list(_KINDS), self.kind, partial(self._set, "kind"))
                 if word in (*_ONE, *_SOME):
                     names = [signal.name for signal in check.dataset.signals]
-                    options = [_ALL, *names] if word in _SOME else names
+                    options = [_INPUTS if word == "fill_gaps" else _ALL, *names] if word in _SOME else names
                     self._signal = self._signal if self._signal in options else options[0]
                     text("span", "to", "head")
                     Choice("signal of the step", options, self._signal, partial(self._set, "_signal"))
@@ -184,7 +185,7 @@ class _View:
         step: dict[str, Any] = {"step": word}
         if word in _ONE:
             step["signal"] = self._signal
-        elif word in _SOME and (self._signal != _ALL or word == "flip"):
+        elif word in _SOME and (self._signal not in (_ALL, _INPUTS) or word == "flip"):
             step["signals"] = [s.name for s in self._shown.signals] if self._signal == _ALL else [self._signal]
         if field:
             try:

@@ -66,6 +66,7 @@ def _read(given: Given) -> tuple[list[Record], tuple[str, ...]]:
     """Records, each called by its file, and the columns to use."""
     from pysim.identify.columns import the_column
     from pysim.io import read_dataset, read_record
+    from pysim.io.prepare import refuse_missing_in
     from pysim.types import BadInput, Record
 
     if _is_dataset(given):
@@ -78,6 +79,9 @@ def _read(given: Given) -> tuple[list[Record], tuple[str, ...]]:
         _refuse_forgotten_period(given, logs)
         wanted = (("input", given.input), ("output", given.signal))
         columns = tuple(the_column(dataset, logs[0], role, name) for role, name in wanted)
+        for log in logs:
+            if isinstance(log.data, Record):
+                refuse_missing_in(dataset, log, log.data, columns)
         records = [replace(log.data, origin=log.source) for log in logs if isinstance(log.data, Record)]
     else:
         if not (given.input and given.signal):

@@ -13,6 +13,7 @@ from pysim.identify.chirp.cycle_fit import Extreme, Samples
 from pysim.identify.chirp.result import ChirpAnalysis
 from pysim.identify.columns import declared_noise, the_column
 from pysim.identify.logged import LoggedWave, logged_wave
+from pysim.io.prepare import refuse_missing_in
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
 from pysim.types.note import Note, NoteCode
 from pysim.types.record_kind import CHIRP
@@ -92,6 +93,7 @@ def chirp_responses(
     for record in dataset.records:
         if record.kind == CHIRP.name and isinstance(record.data, Record):
             input_, name = the_column(dataset, record, "input"), the_column(dataset, record, "output", output)
+            refuse_missing_in(dataset, record, record.data, (input_, name))
             noise = declared_noise(dataset, name)
             found.append(analyse_chirp(record, input_, name, level=level, noise=noise))
     if not found:

@@ -5,7 +5,6 @@ from pysim.identify.data_check.clipping import plateaus
 from pysim.identify.data_check.clock import Clock, clock
 from pysim.identify.data_check.finding import Finding, FindingCode
 from pysim.identify.data_check.folding import share_near_nyquist
-from pysim.identify.data_check.gaps import whole_rows
 from pysim.identify.data_check.held import Between, between_samples
 from pysim.identify.data_check.one_cause import with_one_cause
 from pysim.identify.data_check.swing import Swing, swing
@@ -24,6 +23,5 @@ __all__ = [
     "plateaus",
     "share_near_nyquist",
     "swing",
-    "whole_rows",
     "with_one_cause",
 ]

@@ -12,7 +12,6 @@ from pysim.identify.data_check.clipping import plateaus
 from pysim.identify.data_check.clock import Clock, clock
 from pysim.identify.data_check.finding import Finding, FindingCode, finding
 from pysim.identify.data_check.folding import share_near_nyquist
-from pysim.identify.data_check.gaps import whole_rows
 from pysim.identify.data_check.swing import swing
 from pysim.identify.logged import logged_wave
 from pysim.io.prepare import DropOutliers, Exclude, FillGaps, Resample, Step, fill_of, outliers, short_name
@@ -83,10 +82,10 @@ def check_dataset(
 ) -> DataCheck:
     """Check a data set; findings do not raise, and have the steps of preparation that correct them.
 
-    Found are: empty cells, gaps and uneven sampling; outliers; a command whose frequency, offset, amplitude or shape is
-    not as specified; fewer than two periods; harmonics beyond half the sampling rate, or much power close to it;
-    signals clipped at a limit; with simulated logs also wrong signs, units and columns; with a model also signals that
-    it does not have, and inputs without a signal.
+    Found are: empty cells of inputs, gaps and uneven sampling; outliers; a command whose frequency, offset, amplitude
+    or shape is not as specified; fewer than two periods; harmonics beyond half the sampling rate, or much power close
+    to it; signals clipped at a limit; with simulated logs also wrong signs, units and columns; with a model also
+    signals that it does not have, and inputs without a signal.
 
     Args:
         answers: source of a log -> simulated log, with columns named like signals or their variables.
@@ -132,8 +131,12 @@ def _check(
     data = record.data
     base = clock(data.time) if isinstance(data, Record) else None
     found: tuple[Finding, ...] = ()
+    inputs = dataset.columns(record, "input")
     if isinstance(data, Record) and base:
-        found = (*_missing(record, data, base, fill), *_of_log(dataset, record, whole_rows(data), base, limits))
+        found = (
+            *_missing(record, data, inputs, base, fill),
+            *_of_log(dataset, record, data.whole_rows(inputs), base, limits),
+        )
     return RecordCheck(
         source=record.source,
         kind=record.kind,
@@ -150,9 +153,12 @@ def _check(
     )
 
 
-def _missing(record: MeasuredRecord, log: Record, base: Clock, fill: FillGaps | None) -> Iterator[Finding]:
+def _missing(
+    record: MeasuredRecord, log: Record, inputs: Sequence[str], base: Clock, fill: FillGaps | None
+) -> Iterator[Finding]:
+    """Findings of empty cells of inputs, and of gaps in time. Where an output was not measured, nothing is compared."""
     cure = () if fill is None else (fill,)
-    for name in log.names:
+    for name in inputs:
         empty = np.flatnonzero(np.isnan(log[name]))
         if empty.size:
             yield finding(
@@ -180,10 +186,12 @@ def _of_log(
     if base.jitter > _JITTER:
         even = Resample(float(f"{base.rate:.3g}"))
         yield finding(FindingCode.UNEVEN, source, even, jitter=base.jitter, rate=base.rate)
-    still = [name for name in log.names if np.ptp(log[name]) == 0]
+    there = {name: log[name][np.isfinite(log[name])] for name in log.names}
+    still = [name for name, values in there.items() if values.size and np.ptp(values) == 0]
     for name in still:
-        yield finding(FindingCode.STILL, source, signal=name, value=float(log[name][0]), unit=dataset.signal(name).unit)
-    inside = _wave_inside(record, log)
+        value = float(there[name][0])
+        yield finding(FindingCode.STILL, source, signal=name, value=value, unit=dataset.signal(name).unit)
+    inside, broad = _wave_inside(record, log), KINDS[record.kind].broad
     if record.frequency is not None and record.command and record.command not in still:
         yield from _of_sine(record, log, inside, base, dataset.signal(record.command))
     elif record.kind == CHIRP.name and record.command:
@@ -193,7 +201,8 @@ def _of_log(
     for name in log.names:
         if dataset.signal(name).role == "output":
             yield from _of_output(dataset, record, log, name, inside, limits[name])
-        share = share_near_nyquist(log[name], dataset.signal(name).deviation) if KINDS[record.kind].broad else 0.0
+        whole = there[name].size > (1 - _FOLDED) * log.time.size  # more that are missing fold by themselves
+        share = share_near_nyquist(there[name], dataset.signal(name).deviation) if broad and whole else 0.0
         if share > _FOLDED:
             yield finding(FindingCode.FOLDED, source, signal=name, share=share)
 
@@ -202,8 +211,9 @@ def _of_output(
     dataset: Dataset, record: MeasuredRecord, log: Record, name: str, inside: slice, ends: tuple[float, float]
 ) -> Iterator[Finding]:
     """Findings of clipped samples and outliers in one output."""
-    own, time = short_name(dataset, record), log.time[inside]
-    flat = plateaus(log[name][inside], *ends)
+    own, there = short_name(dataset, record), np.isfinite(log[name])
+    time = log.time[inside][there[inside]]
+    flat = plateaus(log[name][inside][there[inside]], *ends) if time.size else []
     if flat:
         cuts = _joined(flat, time.size)
         cure = [Exclude(own, *map(float, (time[a], time[b - 1]))) for a, b in cuts]

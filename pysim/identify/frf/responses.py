@@ -10,6 +10,7 @@ import numpy as np
 
 from pysim.identify.columns import declared_noise, the_column
 from pysim.identify.frf.sine_point import SinePoint, Window, sine_point
+from pysim.io.prepare import refuse_missing_in
 from pysim.types import BadInput, Dataset, FrequencyResponse, Record, SineTest
 from pysim.types.note import Note, NoteCode
 from pysim.types.record_kind import STEPPED_SINE
@@ -81,6 +82,7 @@ def measured_responses(
         if record.kind != STEPPED_SINE.name or not isinstance(record.data, Record):
             continue
         names = the_column(dataset, record, "input"), the_column(dataset, record, "output", output)
+        refuse_missing_in(dataset, record, record.data, names)
         point = sine_point(record, *names, window=window, noise=declared_noise(dataset, names[1]))
         offset = _nominal(record.offset, point.command.offset)
         amplitude = _nominal(record.amplitude, point.command.amplitude)

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.columns import declared_noise
+from pysim.io.prepare import refuse_missing_in
 from pysim.types import BadInput, Dataset, MeasuredRecord, MeasuredSignal, Record
 
 Array = NDArray[np.float64]
@@ -56,9 +57,9 @@ def shaft_tests(dataset: Dataset, columns: ShaftColumns, *, use: str = "fit") ->
     stated = [_times(gain, declared_noise(dataset, signal.name)) for signal, gain in torques]
     noise = None if None in stated else float(np.linalg.norm(stated))  # type: ignore[arg-type]
     rounding = float(np.linalg.norm([gain * (signal.resolution or 0.0) / math.sqrt(12) for signal, gain in torques]))
-    known = speed.noise is not None or speed.resolution is not None
+    own = speed.deviation if speed.noise is not None or speed.resolution is not None else None
     tests = tuple(
-        ShaftTest(record.source, *_series(record, columns), noise, speed.deviation if known else None, rounding)
+        ShaftTest(record.source, *_series(dataset, record, columns), noise, own, rounding)
         for record in dataset.records
         if record.use == use and isinstance(record.data, Record)
     )
@@ -83,10 +84,12 @@ def _times(gain: float, noise: float | None) -> float | None:
     return None if noise is None else abs(gain) * noise
 
 
-def _series(record: MeasuredRecord, columns: ShaftColumns) -> tuple[Array, Array, Array]:
+def _series(dataset: Dataset, record: MeasuredRecord, columns: ShaftColumns) -> tuple[Array, Array, Array]:
     """Time, speed and torque of one log."""
     data = record.data
     assert isinstance(data, Record)
+    used = (columns.speed, columns.supply, *(() if columns.load is None else (columns.load,)))
+    refuse_missing_in(dataset, record, data, used)
     torque = columns.supply_gain * data[columns.supply]
     if columns.load is not None:
         torque = torque - columns.load_gain * data[columns.load]

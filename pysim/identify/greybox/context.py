@@ -48,11 +48,11 @@ class Context:
     started: Collection[str | None]
 
     def columns(self, record: MeasuredRecord) -> tuple[tuple[str, ...], tuple[str, ...]]:
-        """Commands and compared outputs of a log."""
+        """Commands and compared outputs of a log, of which some sample was measured."""
         assert isinstance(record.data, Record)
         names = record.data.names
         commands = tuple(n for n in names if self.dataset.signal(n).role == "input")
-        outputs = tuple(n for n in names if n in self.outputs)
+        outputs = tuple(n for n in names if n in self.outputs and np.isfinite(record.data[n]).any())
         if not commands:
             raise BadInput(f"{record.source}: no column is an input; name the command in the data set")
         return commands, outputs

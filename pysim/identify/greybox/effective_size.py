@@ -47,15 +47,28 @@ def inflation(left: Sequence[Array], changed: Sequence[Array]) -> float:
     return max(found / total, 1.0)
 
 
-def independent_pieces(residual: Array, shortest: float) -> int:
-    """Number of stretches of a log's residual (n_t, n_y) that count as independent of each other, at least 1.
+def independent_pieces(residuals: Sequence[Array], shortest: float) -> int:
+    """Number of stretches of a log that count as independent of each other, at least 1.
 
     Args:
+        residuals: per channel (n,), of the samples that were measured.
         shortest: length of a stretch in units of lambda of the slowest channel, its autocorrelation time in samples.
     """
-    mean = [np.ones((len(residual), 1))]
-    slowest = max(inflation([column], mean) for column in np.split(residual, residual.shape[1], axis=1))
-    return max(int(len(residual) / (shortest * slowest)), 1)
+    columns = [rest[:, None] for rest in residuals if rest.size]
+    counts = [len(column) / (shortest * inflation([column], [np.ones_like(column)])) for column in columns]
+    return max(int(min(counts, default=1.0)), 1)
+
+
+def piece_of_sample(there: NDArray[np.bool_], count: int) -> NDArray[np.intp]:
+    """(n_t,) number of the stretch that each sample of a log is in; all stretches hold equally many measured values.
+
+    Args:
+        there: (n_t, n_y) whether a value was measured.
+        count: of stretches.
+    """
+    found = np.cumsum(np.count_nonzero(there, axis=1))
+    ahead = np.concatenate([[0], found[:-1]])
+    return np.asarray(np.minimum(ahead * count // max(int(found[-1]), 1), count - 1))
 
 
 def _products(rows: Sequence[Array], count: int) -> Array:

@@ -80,8 +80,8 @@ def _of_log(
     back = begins.by_initial[0] @ inverse  # (n_s, n_r) derivative of the states by the residual's rows
     colour = np.ones(len(names))
     if table.reduction is None:
-        shape = (-1, len(one.channels))
-        colour = np.array([inflation([rows[:, 0].reshape(shape)], [own.reshape(shape)]) for own in back])
+        left = _by_channel(rows[:, 0], table.channel)
+        colour = np.array([inflation([left], [_by_channel(own, table.channel)]) for own in back])
     own_variance = colour * np.sum(back**2, axis=1)
     followed = [np.sum((follow @ covariance) * follow, axis=1) for covariance in covariances]
     unseen = np.sum(vt[~held] ** 2, axis=0) > EXACT  # states with a share in an undetermined direction
@@ -93,3 +93,12 @@ def _of_log(
                  (v - reach, v + reach))
         for name, v, at_rest, sd, reach in zip(names, *(a.tolist() for a in (value, rest, std, half)), strict=True)
     ]  # fmt: skip
+
+
+def _by_channel(rows: Array, channel: NDArray[np.intp]) -> Array:
+    """Rows (n_r,) in a column for each channel (n_t, n_y); zeros follow where one has fewer, which have no part."""
+    columns = [rows[channel == j] for j in range(int(channel.max()) + 1)]
+    found = np.zeros((max(column.size for column in columns), len(columns)))
+    for j, column in enumerate(columns):
+        found[: column.size, j] = column
+    return found

@@ -39,6 +39,7 @@ def seen_noise(values: Array) -> float:
     The median makes it robust against single events. It is too large if the signal itself changes between samples.
     """
     differences = np.diff(values, 4)
+    differences = differences[np.isfinite(differences)]  # five samples in a row, all of them measured
     if differences.size == 0:
         return math.nan
     middle = float(np.median(np.abs(differences))) / 0.6745
@@ -54,7 +55,7 @@ def signal_noise(
     are too short for that, it comes from their fourth differences. Estimates are never below the noise floor.
 
     Args:
-        logs: columns of the signal, (n_t,) each.
+        logs: columns of the signal, (n_t,) each; not-a-number where nothing was measured.
         given: name of a signal -> noise, which replaces what the data set specifies.
     Raises:
         BadInput: the noise is not specified and cannot be estimated.
@@ -88,10 +89,11 @@ def noise_floor(
     """Smallest level that a signal's residual is divided by; only a floor, so that a wrong noise does not set weights.
 
     Args:
-        logs: columns of the signal, (n_t,) each.
+        logs: columns of the signal, (n_t,) each; not-a-number where nothing was measured.
         given: name of a signal -> noise, which replaces what the data set specifies.
         integration: relative error of the simulation.
     """
+    logs = [log[np.isfinite(log)] for log in logs]
     spread = max((float(np.ptp(log)) for log in logs), default=0.0)
     size = max((float(np.abs(log).max()) for log in logs), default=0.0)
     step = max((_step(log) for log in logs), default=0.0)
@@ -112,15 +114,18 @@ def _step(values: Array) -> float:
 def white_floor(residuals: Sequence[Array], settings: NoiseSettings) -> float | None:
     """Standard deviation of the white part of one signal or its residual; None if all logs are too short.
 
+    A log that lacks samples counts by its stretches in which none is missing.
+
     It is that of the lowest band of the periodogram, pooled with all bands that are as low within their scatter. Slow
     and structured errors lie in the other bands. It is too low if the sensor has a low-pass filter.
 
     Args:
-        residuals: one (n_t,) per log.
+        residuals: one (n_t,) per log; not-a-number where nothing was measured.
     Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70."""
     bands = settings.bands
     power, count = np.zeros(bands), np.zeros(bands)
-    for rest in residuals:
+    parts = (part for log in residuals for part in np.split(log, np.flatnonzero(np.isnan(log))))
+    for rest in (part[np.isfinite(part)] for part in parts):
         n = rest.size
         if n < _ORDINATES * bands:
             continue

@@ -182,7 +182,9 @@ def _context(
 
 
 def _columns(dataset: Dataset, name: str) -> list[Array]:
-    return [r.data[name] for r in dataset.records if isinstance(r.data, Record) and name in r.data.names]
+    """The signal in every log that has a sample of it."""
+    found = [r.data[name] for r in dataset.records if isinstance(r.data, Record) and name in r.data.names]
+    return [column for column in found if np.isfinite(column).any()]
 
 
 def _floors(context: Context, given: Mapping[str, float]) -> dict[Channel, NoiseFloor]:

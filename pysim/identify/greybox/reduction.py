@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.identify.greybox.effective_size import independent_pieces
+from pysim.identify.greybox.effective_size import independent_pieces, piece_of_sample
 
 Array = NDArray[np.float64]
 Rows = NDArray[np.intp]
@@ -19,13 +19,15 @@ class Reduction:
     """Reduced rows of one log at one point.
 
     Args:
-        measured: (n_t, n_y) measured values of each row.
+        measured: (n_t, n_y) measured values of each row; not-a-number where nothing was measured, which has no part.
         pieces: number of stretches of the log that count as independent, from the point before; 0 if not known.
         blocks: number of blocks, to which the pieces are assigned in turn.
     """
 
     def __init__(self, measured: Array, pieces: int, blocks: int) -> None:
         self._measured, self._pieces, self._blocks = measured, max(pieces, blocks), blocks
+        self._there = np.isfinite(measured)
+        self._block = piece_of_sample(self._there, self._pieces) % blocks
         self._residual: Array = np.zeros((0, 0))
         self._triangles: dict[tuple[int, int], Array] = {}
         self._chain, self._free = np.zeros((0, 0)), np.zeros(0, dtype=np.intp)
@@ -39,15 +41,19 @@ class Reduction:
         if first == 0:
             self._residual, self._triangles = np.zeros_like(self._measured), {}
         own, split = slice(first, first + len(values)), slopes.shape[2] - len(self._chain)
-        self._residual[own] = self._measured[own] - values
+        there = self._there[own]
+        self._residual[own] = np.where(there, self._measured[own] - values, 0.0)
         by_x, by_initial = slopes[..., split:] @ self._chain, slopes[..., self._free]
         table = np.concatenate([self._residual[own, :, None], -by_x, -by_initial], axis=2)
-        block = np.arange(own.start, own.stop) * self._pieces // len(self._measured) % self._blocks
+        block = self._block[own]
         order = np.argsort(block, kind="stable")
         edges = np.searchsorted(block[order], np.arange(self._blocks + 1))
         for b in np.flatnonzero(np.diff(edges)).tolist():
             for channel in range(values.shape[1]):
-                rows = table[order[edges[b] : edges[b + 1]], channel]
+                places = order[edges[b] : edges[b + 1]]
+                rows = table[places[there[places, channel]], channel]
+                if not len(rows):
+                    continue
                 before = self._triangles.get((channel, b), np.zeros((0, rows.shape[1])))
                 self._triangles[channel, b] = np.asarray(np.linalg.qr(np.concatenate([before, rows]), mode="r"))
 
@@ -73,9 +79,10 @@ class Reduction:
 
     @property
     def count(self) -> int:
-        """Number of rows that the triangles stand for, n_t n_y."""
-        return self._measured.size
+        """Number of rows that the triangles stand for, n_t n_y where nothing is missing."""
+        return int(np.count_nonzero(self._there))
 
     def pieces(self, shortest: float) -> int:
         """Number of independent pieces of the residual, see `independent_pieces`."""
-        return independent_pieces(self._residual, shortest)
+        columns = zip(self._residual.T, self._there.T, strict=True)
+        return independent_pieces([rest[there] for rest, there in columns], shortest)

@@ -22,6 +22,7 @@ from pysim.identify.greybox.time_log import kept_columns
 from pysim.identify.greybox.treatment import SinePlan
 from pysim.identify.logged import logged_wave
 from pysim.types import (
+    BadInput,
     FrequencyResponse,
     Harmonics,
     MeasuredRecord,
@@ -238,14 +239,20 @@ class Swing:
 
 
 def swing(context: Context, record: MeasuredRecord, index: int) -> Swing:
-    """The stepped sine of one record, with its index among the logs; other commands are taken as constant."""
+    """The stepped sine of one record, with its index among the logs; other commands are taken as constant.
+
+    Samples where a compared column has no number are left out.
+    """
     columns, outputs = context.columns(record)
     data = record.data
     assert isinstance(data, Record)
     swinging = max(columns, key=lambda column: float(np.std(data[column])))  # the others are constant
     sine = steady_sine(logged_wave(record, swinging))
     noise = tuple(context.noise[name] for name in outputs)
-    log = _settled(record.source, kept_columns(data, outputs), sine, noise, context.treatment.sine, index)
+    whole = kept_columns(data, outputs).whole_rows()
+    if whole.time.size < 2:
+        raise BadInput(f"{record.source}: {', '.join(outputs)} have no samples at the same time; compare one of them")
+    log = _settled(record.source, whole, sine, noise, context.treatment.sine, index)
     others = {c: Signal.constant(float(np.mean(data[c]))) for c in columns if c != swinging}
     settle = float(log.measured.time[0]) - sine.onset
     middle = None if record.begin is None else record.begin + float(np.mean(log.measured.time) - data.time[0])

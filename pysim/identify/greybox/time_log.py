@@ -5,13 +5,14 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.accuracy import time_deviations
 from pysim.identify.greybox.context import Context
-from pysim.identify.greybox.effective_size import independent_pieces
+from pysim.identify.greybox.effective_size import independent_pieces, piece_of_sample
 from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind, SensorErrors, gains
 from pysim.identify.greybox.observation import Measure, Run, Simulated
 from pysim.identify.logged import logged_command
@@ -27,9 +28,12 @@ _WATCHED = 1000  # samples of a log, at most, from which the range of the model'
 class TimeLog:
     """Every sample of every compared signal.
 
+    A cell without a number was not measured: it has no row. For white noise, all that follows is exact. The
+    autocorrelation of coloured noise is that from one sample that is there to the next.
+
     Args:
         dataset, source, kind, use: of the log.
-        measured: the compared columns.
+        measured: the compared columns; not-a-number where nothing was measured.
         noise: (n_y,) standard deviations, in the columns' units.
         full_scale: (n_y,) value that counts as 100 percent, in the columns' units.
         run: the model's run, recorded at the log's times.
@@ -71,7 +75,8 @@ class TimeLog:
         """See Observation. At least twice as many measured values as free initial states are kept."""
         if not self.run.begins_anywhere:
             return self
-        least = math.ceil(2 * self.run.free.size / len(self.channels))
+        found = np.cumsum(np.count_nonzero(self.there, axis=1))
+        least = int(np.searchsorted(found, 2 * self.run.free.size)) + 1
         count = min(max(math.ceil(share * self.measured.time.size), least), self.measured.time.size)
         whole = self.measured
         measured = replace(whole, time=whole.time[:count], values=whole.values[:count])
@@ -84,15 +89,25 @@ class TimeLog:
         """The compared columns."""
         return self.measured.names
 
+    @cached_property
+    def there(self) -> NDArray[np.bool_]:
+        """(n_t, n_y) whether a sample was measured."""
+        return np.isfinite(self.measured.values)
+
+    @cached_property
+    def _rows(self) -> NDArray[np.bool_] | slice:
+        """The rows of samples that were measured, among those of all."""
+        return slice(None) if self.there.all() else self.there.ravel()
+
     @property
     def channel_of_row(self) -> NDArray[np.intp]:
         """Index of each row's signal; rows are ordered by sample, then signal."""
-        return np.tile(np.arange(len(self.channels)), self.measured.time.size)
+        return np.tile(np.arange(len(self.channels)), self.measured.time.size)[self._rows]
 
     @property
     def samples(self) -> Array:
         """Number of samples of each signal."""
-        return np.full(len(self.channels), float(self.measured.time.size))
+        return np.count_nonzero(self.there, axis=0).astype(np.float64)
 
     @property
     def rest(self) -> Array:
@@ -110,10 +125,14 @@ class TimeLog:
         np.divide(answer.slopes, -size[:, None], out=rows[:, :, 1 : 1 + n_x])
         if free:
             np.divide(answer.by_initial, -size[:, None], out=rows[:, :, 1 + n_x :])
-        return rows.reshape(-1, rows.shape[2])
+        return rows.reshape(-1, rows.shape[2])[self._rows]
 
     def nuisance_columns(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:
         """See Observation. One unit of drift is 1 per s on the common clock, from zero at the clock's origin."""
+        return self._by_error(answers, nuisances)[self._rows]
+
+    def _by_error(self, answers: Sequence[Simulated], nuisances: Sequence[Nuisance]) -> Array:
+        """The same with a row for samples that were not measured, too."""
         (answer,) = answers
         time, columns = self.measured.time, np.zeros((*self.measured.values.shape, len(nuisances)))
         for k, one in enumerate(nuisances):
@@ -133,7 +152,7 @@ class TimeLog:
     def sensed(self, answers: Sequence[Simulated], errors: SensorErrors) -> tuple[Simulated, ...]:
         """See Observation."""
         (answer,) = answers
-        moved = self.nuisance_columns(answers, [one for one, _ in errors]) @ np.array([size for _, size in errors])
+        moved = self._by_error(answers, [one for one, _ in errors]) @ np.array([size for _, size in errors])
         gain = gains(errors, self.dataset, self.channels)[:, None]
         values = answer.values + moved.reshape(answer.values.shape)
         return (
@@ -144,9 +163,9 @@ class TimeLog:
 
     def pieces(self, residual: Array, shortest: float) -> NDArray[np.intp]:
         """Contiguous stretches of samples of equal length, set by the channel with the largest lambda."""
-        rows = residual.reshape(-1, len(self.channels))
-        count = independent_pieces(rows, shortest)
-        return np.repeat(np.arange(len(rows)) * count // len(rows), len(self.channels))
+        channel = self.channel_of_row
+        count = independent_pieces([residual[channel == j] for j in range(len(self.channels))], shortest)
+        return np.repeat(piece_of_sample(self.there, count), len(self.channels))[self._rows]
 
     def beside(self, answers: Sequence[Simulated]) -> tuple[tuple[RecordFit, ...], tuple[ResponseFit, ...]]:
         """The log with the criteria of thesis Table 1.4."""
@@ -243,7 +262,7 @@ def kept_columns(data: Record, names: tuple[str, ...]) -> Record:
 
 def full_scale(signal: MeasuredSignal, values: Array) -> float:
     """Value that counts as 100 percent: 100 for the unit %, 1 for the unit 1, else the largest measured magnitude."""
-    return {"%": 100.0, "1": 1.0}.get(signal.unit) or float(np.max(np.abs(values))) or 1.0
+    return {"%": 100.0, "1": 1.0}.get(signal.unit) or float(np.nanmax(np.abs(values))) or 1.0
 
 
 def from_rest(signal: Signal, start: float, first: float, times: tuple[float, float]) -> tuple[Signal, float]:

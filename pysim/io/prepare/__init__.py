@@ -1,11 +1,12 @@
 """Steps that make raw logs ready: each a value that is listed, saved in dataset.toml and done again when that is read.
 
-What is missing in a log stands as not-a-number in its column until a step fills it or cuts it out.
+What is missing in a log stands as not-a-number in its column until a step fills it or cuts it out. Of an output it may
+stay so: nothing is compared there.
 """
 
 from pysim.io.prepare.cut import Exclude, HoldOut, Split, Trim
 from pysim.io.prepare.filters import LowPass, Resample
-from pysim.io.prepare.gaps import FillGaps, fill_of, refuse_missing_samples
+from pysim.io.prepare.gaps import FillGaps, fill_of, refuse_missing_in, refuse_missing_samples
 from pysim.io.prepare.log_names import logs_called, short_name
 from pysim.io.prepare.outliers import DropOutliers, outliers
 from pysim.io.prepare.signals import Delay, Detrend, Flip, Rename, Scaled
@@ -35,6 +36,7 @@ __all__ = [
     "logs_called",
     "outliers",
     "prepared",
+    "refuse_missing_in",
     "refuse_missing_samples",
     "short_name",
     "step_of",

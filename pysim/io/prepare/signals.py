@@ -7,12 +7,15 @@ from dataclasses import dataclass, replace
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pysim.io.prepare.gaps import refuse_missing_in
 from pysim.io.prepare.interpolation import at_times
 from pysim.io.prepare.step import each_log, refuse_tables, rows, signals_of, stands, with_columns
 from pysim.io.units import Scale, unit_cure
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -158,11 +161,15 @@ class Detrend:
         names = signals_of(dataset, self.signals)
 
         def change(record: MeasuredRecord, log: Record) -> Iterator[MeasuredRecord]:
-            refuse_missing_in(dataset, record, log)
             middle = 0.5 * (log.time[0] + log.time[-1])
             x = 2 * (log.time - middle) / np.ptp(log.time)  # -1 to 1
             own = [name for name in names if name in log.names]
-            fits = {name: np.polynomial.legendre.legfit(x, log[name], self.order) for name in own}
+            there = {name: np.isfinite(log[name]) for name in own}
+            fits = {
+                name: np.polynomial.legendre.legfit(x[rows], log[name][rows], self.order)
+                for name, rows in there.items()
+                if rows.any()
+            }
             yield with_columns(
                 record, log, {name: log[name] - np.polynomial.legendre.legval(x, fit) for name, fit in fits.items()}
             )
@@ -174,7 +181,7 @@ class Detrend:
 class Delay:
     """Let a signal come later: its new value at t is the old one at t - seconds; a negative number, earlier.
 
-    The log becomes shorter by that time.
+    The log becomes shorter by that time. A new value of an output is missing where an old one beside it is.
 
     Args:
         signal: its name.
@@ -193,13 +200,25 @@ class Delay:
             if self.signal not in log.names:
                 yield record
                 return
-            refuse_missing_in(dataset, record, log)
+            if dataset.signal(self.signal).role == "input":
+                refuse_missing_in(dataset, record, log, (self.signal,))
             wanted = log.time - self.seconds
             edge = 1e-9 * float(log.time[-1] - log.time[0])
             first, stop = np.searchsorted(wanted, [log.time[0] - edge, log.time[-1] + edge])
             held = stands(dataset, record, self.signal)
-            moved = with_columns(record, log, {self.signal: at_times(log.time, log[self.signal], wanted, held=held)})
+            moved = with_columns(record, log, {self.signal: _moved(log.time, log[self.signal], wanted, held=held)})
             assert isinstance(moved.data, Record)
             yield rows(moved, moved.data, int(first), int(stop))
 
         return each_log(dataset, change)
+
+
+def _moved(time: Array, values: Array, wanted: Array, *, held: bool) -> Array:
+    """Values (n_t,) at other times, made of samples that are there; not-a-number beside one that is not."""
+    there = np.isfinite(values)
+    if there.all() or not there.any():
+        return at_times(time, values, wanted, held=held)
+    found = at_times(time[there], values[there], wanted, held=held)
+    place = np.round(np.interp(wanted, time, np.arange(time.size)), 6)  # at a sample, it is on both sides
+    ahead, behind = np.floor(place).astype(np.intp), np.ceil(place).astype(np.intp)
+    return np.asarray(np.where(there[ahead] & there[behind], found, np.nan))

@@ -9,7 +9,7 @@ from typing import Any
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted, shown_point, toml_key
 from pysim.io.prepare import call, typed
-from pysim.present.data_check.words import assumed_between_samples, cures, sentence
+from pysim.present.data_check.words import assumed_between_samples, cures, not_compared, sentence
 from pysim.present.notes import USES
 from pysim.present.page import cell, heading, items, paragraph, pictures, table
 from pysim.present.page import page as whole_page
@@ -51,6 +51,8 @@ def warnings_in_words(check: DataCheck) -> list[str]:
         lines.append("to cure, in Python or with `pysim data prepare`:")
         width = max(len(call(step)) for step in steps)
         lines += [f"  data = data.{call(step):<{width}}  # --step {typed(step)}" for step in steps]
+    for told in not_compared(check.dataset):
+        lines += textwrap.wrap(told, _WIDTH)
     for name, told in assumed_between_samples(check.dataset):
         typed_in = f'load(..., hold={{"{name}": "zero"}}), or hold = "zero" below [signals.{toml_key(name)}]'
         lines += textwrap.wrap(f'{told} Say what it was: {typed_in}; "linear" or "spline" if it was not held.', _WIDTH)

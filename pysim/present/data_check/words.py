@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 
+import numpy as np
+
 from pysim.identify.data_check import Between, Finding, FindingCode, between_samples
 from pysim.io import counted
 from pysim.io.prepare import Step, call
 from pysim.present.notes import listed
-from pysim.types import UNITS, Dataset
+from pysim.types import UNITS, Dataset, Record
 
 _WORDS: Mapping[FindingCode, str] = {
     FindingCode.NOT_IN_MODEL: (
@@ -97,6 +99,22 @@ def cures(findings: Iterable[Finding]) -> list[Step]:
     ordered = sorted(findings, key=lambda found: order.index(found.code))
     steps = {call(step): step for found in ordered for step in found.cure}
     return list(steps.values())
+
+
+def not_compared(dataset: Dataset) -> list[str]:
+    """Outputs with empty cells, each with what becomes of them, in a sentence."""
+    found = []
+    for signal in dataset.signals:
+        logs, count = list[str](), 0
+        for record in dataset.logs():
+            if signal.role == "output" and isinstance(record.data, Record) and signal.name in record.data.names:
+                empty = int(np.count_nonzero(np.isnan(record.data[signal.name])))
+                logs, count = ([*logs, record.source] if empty else logs), count + empty
+        if count:
+            more = [f"{len(logs) - _SHOWN} more"] if len(logs) > _SHOWN else []
+            where, what = listed([*logs[:_SHOWN], *more]), "It is" if count == 1 else "They are"
+            found.append(f"In {where}, {signal.name} lacks {counted(count, 'sample')}. {what} not compared.")
+    return found
 
 
 def assumed_between_samples(dataset: Dataset) -> list[tuple[str, str]]:

@@ -290,10 +290,10 @@ def signal_rows(records: Sequence[RecordFit]) -> list[tuple[str, str, float, flo
         for j, name in enumerate(record.measured.names):
             units.setdefault(name, record.measured.units[j])
             own = sums.setdefault((name, USES[record.use]), [0.0] * 4)
-            own[0] += float(np.sum((residual[:, j] / record.noise[j]) ** 2))
-            own[1] += float(np.sum(residual[:, j] ** 2))
-            own[2] += float(np.sum((measured[:, j] - measured[:, j].mean()) ** 2))
-            own[3] += residual.shape[0]
+            own[0] += float(np.nansum((residual[:, j] / record.noise[j]) ** 2))
+            own[1] += float(np.nansum(residual[:, j] ** 2))
+            own[2] += float(np.nansum((measured[:, j] - np.nanmean(measured[:, j])) ** 2))
+            own[3] += np.count_nonzero(np.isfinite(residual[:, j]))
     return [
         (name, use, math.sqrt(noise / count), 100 * (1 - math.sqrt(away / size)) if size else math.nan,
          math.sqrt(away / count), units[name])

@@ -119,8 +119,8 @@ def test_dates_volts_an_empty_cell_and_a_turned_sign_are_made_ready_by_clicks_al
     """A logger's file: moments in place of seconds, decimal commas, a sensor in V that was wired the wrong way."""
     wave, rows = np.sin(TIME[:400]), []
     for k, (force, volt) in enumerate(zip(2 * wave, 5 - 40 * wave, strict=True)):
-        told = "" if k == 200 else f"{volt:.4f}".replace(".", ",")
-        rows.append(f"2026-03-01 10:00:{k / 100:06.3f};{force:.4f};{told}".replace(".", ",", 2))
+        told = "" if k == 200 else f"{force:.4f}"
+        rows.append(f"2026-03-01 10:00:{k / 100:06.3f};{told};{volt:.4f}".replace(".", ","))
     (tmp_path / "bench.csv").write_text("\n".join(["Zeitstempel;F [N];x", *rows, ""]))
     tab = Tab(shown, show(tmp_path / "project"), artefacts())
     tab.drop("files", tmp_path / "bench.csv")
@@ -139,7 +139,7 @@ def test_dates_volts_an_empty_cell_and_a_turned_sign_are_made_ready_by_clicks_al
         )
     tab.shot("volts")
     tab.go("Prepare")
-    tab.see("x lacks 1 sample")
+    tab.see("F lacks 1 sample")
     tab.page.get_by_role("button", name="fill_gaps").first.click()
     tab.see("✓ ready")
     log = read_dataset(tmp_path / "project/data").logs()[0].data

@@ -22,7 +22,7 @@ DESCRIPTION = description("a.csv")
 
 @pytest.fixture
 def project(tmp_path: Path) -> Project:
-    """A log with an empty cell and an outlier."""
+    """A log with an empty cell of the force and an outlier."""
     one = Project.at(tmp_path / "project")
     one.data.mkdir()
     (one.data / "dataset.toml").write_text(DESCRIPTION)
@@ -30,7 +30,7 @@ def project(tmp_path: Path) -> Project:
     x = np.sin(2 * np.pi * t) + 0.01 * np.random.default_rng(1).standard_normal(t.size)
     x[200] = 9.0
     rows = [f"{a:.2f},{b:.4f},{c:.5f}" for a, b, c in zip(t, np.cos(2 * np.pi * t), x, strict=True)]
-    rows[100] = rows[100].rpartition(",")[0] + ","
+    rows[100] = f"{t[100]:.2f},,{x[100]:.5f}"
     (one.data / "a.csv").write_text("\n".join(rows) + "\n")
     one.save(Settings())
     return one
@@ -85,7 +85,7 @@ def test_a_log_is_made_ready_by_clicks_and_every_click_can_be_taken_back(
 ) -> None:
     tab = Tab(shown, show(project.folder, idle=True), artefacts())
     tab.go("Prepare")
-    tab.see("x lacks 1 sample, the first at 1 s")
+    tab.see("F lacks 1 sample, the first at 1 s")
     tab.shot("prepare-before")
     tab.page.get_by_role("button", name="fill_gaps").first.click()
     tab.see("1. fill_gaps(")

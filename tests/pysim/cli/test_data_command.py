@@ -99,12 +99,15 @@ def test_empty_cells_are_reported_and_the_same_step_is_named_everywhere(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     time = np.arange(400) / 100
-    y = np.cos(time)
-    y[100:104] = y[300:380] = np.nan  # the second gap is too long for a straight line
-    data = load({"t": time, "F [N]": np.sin(time), "y [mm]": y}, inputs="F", outputs="y", time="t")
+    force = np.cos(time)
+    force[100:104] = force[300:380] = np.nan  # the second gap is too long for a straight line
+    data = load({"t": time, "F [N]": force, "y [mm]": np.sin(time)}, inputs="F", outputs="y", time="t")
     (step,) = data.check().findings[0].cure
     (tmp_path / "set").mkdir()
-    rows = ["time [s],F [N],y [mm]", *(f"{t},{np.sin(t)},{v}".replace("nan", "") for t, v in zip(time, y, strict=True))]
+    rows = [
+        "time [s],F [N],y [mm]",
+        *(f"{t},{v},{np.sin(t)}".replace("nan", "") for t, v in zip(time, force, strict=True)),
+    ]
     (tmp_path / "set" / "log.csv").write_text("\n".join(rows))
     assert main(["data", "describe", str(tmp_path / "set")]) == 0
     found = numbers_of(tmp_path, str(tmp_path / "set"), "--output", str(tmp_path / "report"))

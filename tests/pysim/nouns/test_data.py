@@ -36,13 +36,21 @@ def test_headings_give_units_and_everything_is_in_si() -> None:
     assert data.now.signal("x").noise == pytest.approx(2e-5)
 
 
-def test_an_empty_cell_is_refused_with_the_line_that_fills_it() -> None:
+def test_an_empty_cell_of_an_input_is_refused_with_the_line_that_fills_it() -> None:
+    frame = {"t [s]": TIME, "F [N]": np.where(TIME == 1.2, np.nan, TIME**2), "x [m]": TIME}
+    raw = load(frame, inputs="F", outputs="x", time="t")
     with pytest.raises(BadInput) as refused:
-        _ = logs().dataset
+        _ = raw.dataset
     line = str(refused.value).partition("data = data.")[2].partition(" fills")[0]
-    data = eval(f"data.{line}", {"data": logs()})
-    x = log_of(data, "run2")["x"]
-    assert np.isfinite(data.dataset.records[1].data.values).all()
+    data = eval(f"data.{line}", {"data": raw})
+    force = data.dataset.records[0].data["F"]
+    assert force[120] == pytest.approx(0.5 * (force[119] + force[121]))
+
+
+def test_an_empty_cell_of_an_output_stays_empty_until_it_is_asked_to_be_filled() -> None:
+    assert np.isnan(log_of(logs().fill_gaps(0.03), "run2")["x"][120])
+    assert np.isnan(logs().dataset.records[1].data["x"][120])
+    x = log_of(logs().fill_gaps(0.03, "x"), "run2")["x"]
     assert x[120] == pytest.approx(0.5 * (x[119] + x[121]))
 
 
@@ -92,7 +100,7 @@ def test_some_logs_alone_are_turned_and_scaled(tmp_path: Path) -> None:
 
 
 def test_a_saved_folder_reads_as_the_same_data(tmp_path: Path) -> None:
-    data = logs().fill_gaps(0.03).trim(stop=4).scale("x", 2.0, 1.0).rename(x="y").delay("y", 0.013)
+    data = logs().fill_gaps(0.03, "x").trim(stop=4).scale("x", 2.0, 1.0).rename(x="y").delay("y", 0.013)
     data = data.detrend("y").resample(50).lowpass(20).drop_outliers(9, "y").split(0.7)
     data.save(tmp_path / "saved")
     again = read_dataset(tmp_path / "saved")
@@ -106,6 +114,12 @@ def test_a_saved_folder_reads_as_the_same_data(tmp_path: Path) -> None:
     opened = load(tmp_path / "saved")
     assert opened.history == data.history
     assert np.isnan(opened.raw.records[1].data.values).sum() == 1
+
+
+def test_an_empty_cell_is_saved_and_read(tmp_path: Path) -> None:
+    logs().detrend("x").save(tmp_path / "saved")
+    again = read_dataset(tmp_path / "saved")
+    assert np.flatnonzero(np.isnan(again.records[1].data["x"])).tolist() == [120]
 
 
 def test_the_second_part_of_a_split_is_found_by_its_use() -> None:

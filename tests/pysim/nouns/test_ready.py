@@ -51,9 +51,10 @@ def test_the_lines_of_the_check_make_it_ready(data: Data, tmp_path: Path) -> Non
     found = data.check({"run1": MODEL})
     assert [one.code for one in found.findings] == [
         *(FindingCode.SIGN, FindingCode.FACTOR, FindingCode.QUANTITY),
-        *(FindingCode.EMPTY, FindingCode.OUTLIERS),
+        FindingCode.OUTLIERS,
     ]
-    assert len(found.lines) == 5
+    assert len(found.lines) == 4
+    assert "In run1.csv, x lacks 1 sample. It is not compared." in repr(found)
     own = {"data": data}
     for line in found.lines:
         exec(line, own)
@@ -62,7 +63,7 @@ def test_the_lines_of_the_check_make_it_ready(data: Data, tmp_path: Path) -> Non
     log = ready.dataset.records[0].data
     assert isinstance(log, Record)
     assert log.units == ("N", "m", "m/s", "Pa")
-    np.testing.assert_allclose(log["x"], PLACE, atol=1e-4)
+    np.testing.assert_allclose(log["x"], np.where(np.arange(TIME.size) == 300, np.nan, PLACE), atol=1e-4)
     np.testing.assert_allclose(log["v"], SPEED, atol=1e-3)
     np.testing.assert_allclose(log["p"], PRESSURE, atol=0.02 * np.ptp(PRESSURE))
     ready.save(tmp_path / "ready")
@@ -90,7 +91,8 @@ class Plant:
     def simulate(self, log: MeasuredRecord) -> Record:
         assert isinstance(log.data, Record)
         assert log.data.names == ("F", "cylinder.x", "v", "p")
-        assert np.isfinite(log.data.values).all()
+        assert np.isfinite(log.data["F"]).all()
+        assert np.flatnonzero(np.isnan(log.data["cylinder.x"])).tolist() == [300]
         return replace(MODEL, names=("cylinder.x", "v", "p"))
 
 

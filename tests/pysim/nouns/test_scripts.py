@@ -78,7 +78,7 @@ def test_2_your_own_model_and_logs(run: Callable[..., Ran]) -> None:
     names = run(2, script_files.with_faults)
     fitted, why = names["fitted"], names["why"]
     assert not fitted.ok
-    assert "data = data.fill_gaps" in repr(names["pysim"].load(
+    assert "x lacks 6 samples. They are not compared." in repr(names["pysim"].load(
         "logs/*.csv", time="timestamp", inputs="F", outputs="x", units={"x": "mm"}).check())  # fmt: skip
     assert why.verdict == "axis.friction"
     (row,) = list(why.effects)

@@ -66,7 +66,7 @@ def samples_of(found: Diagnosis, law: LearnedLaw) -> NDArray[np.float64] | None:
     """Of the law's argument, where it was logged."""
     records = found.history[-1].records if found.history else ()
     own = [r.measured[law.argument] for r in records if law.argument in r.measured.names]
-    return np.concatenate(own) if own else None
+    return np.concatenate([values[np.isfinite(values)] for values in own]) if own else None
 
 
 def _record_figures(found: Diagnosis, dataset: Dataset | None) -> Iterator[Picture]:

@@ -86,10 +86,10 @@ def _stretch(record: RecordFit) -> slice:
     count = int(np.searchsorted(time, time[0] + _STRETCH))
     if count >= time.size:
         return slice(0, time.size)
-    power = np.sum(record.residual.values**2, axis=1)
+    power = np.nansum(record.residual.values**2, axis=1)
     begin = int(np.argmax(np.convolve(power, np.ones(count), mode="valid")))
     return slice(begin, begin + count)
 
 
 def _size(record: RecordFit) -> float:
-    return math.sqrt(float(np.mean(record.residual.values**2)))
+    return math.sqrt(float(np.nanmean(record.residual.values**2)))

@@ -107,7 +107,8 @@ def _logs(shown: tuple[str, ErrorStep, Dataset | None]) -> tuple[str, _Rows]:
 
 def _windows(record: RecordFit, column: int) -> dict[str, float]:
     parts = np.array_split(record.residual.values[:, column], _WINDOWS)
-    return {str(k + 1): math.sqrt(float(np.mean(part**2))) for k, part in enumerate(parts) if part.size}
+    there = {str(k + 1): part[np.isfinite(part)] for k, part in enumerate(parts)}
+    return {name: math.sqrt(float(np.mean(part**2))) for name, part in there.items() if part.size}
 
 
 def _draw(axes: Axes, title: str, rows: _Rows, norm: LogNorm) -> AxesImage:

@@ -209,14 +209,23 @@ def test_outliers_are_found_and_cured() -> None:
     assert (far.code, far.values["count"], far.cure) == (FindingCode.OUTLIERS, 2, (DropOutliers(signals=("y",)),))
 
 
-def test_empty_cells_are_found_with_the_length_that_fills_them() -> None:
-    y = measured(0.9 * sine())
-    y[[100, 101, 300]] = np.nan
-    (empty,) = found(y=y)
+def test_empty_cells_of_inputs_are_found_with_the_length_that_fills_them() -> None:
+    x = measured(sine())
+    x[[100, 101, 300]] = np.nan
+    (empty,) = found(x)
     assert (empty.code, empty.values["count"]) == (FindingCode.EMPTY, 3)
     (fill,) = empty.cure
     assert isinstance(fill, FillGaps)
     assert 0.012 < fill.longest < 0.02  # from the sample ahead of two that are missing to the one behind, at 250 Hz
+
+
+def test_an_output_is_looked_at_where_it_was_measured() -> None:
+    """A fifth of its samples, as of a slower logger; there is nothing to cure."""
+    y = measured(0.9 * sine())
+    y[np.arange(y.size) % 5 > 0] = np.nan
+    assert found(y=y) == ()
+    y[200] += 200.0
+    assert [one.code for one in found(y=y)] == [FindingCode.OUTLIERS]
 
 
 def logs(*lengths: int) -> Dataset:

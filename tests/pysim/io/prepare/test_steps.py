@@ -184,25 +184,41 @@ def test_a_clean_sine_has_no_outliers(hz: float) -> None:
     np.testing.assert_array_equal(y_of(DropOutliers(5.0).apply(data))[1], y_of(data)[1])
 
 
-def test_short_gaps_are_filled_and_long_ones_cut() -> None:
-    y = 2 * TIME
-    y[[100, 101]] = np.nan
+def test_short_gaps_of_inputs_are_filled_and_long_ones_cut() -> None:
+    u = 2 * TIME
+    u[[100, 101]] = np.nan
     kept = np.r_[0:400, 403:1000, 1100:2000]
-    data = FillGaps(0.005).apply(dataset(TIME[kept], y[kept], begin=50.0))
+    data = FillGaps(0.005).apply(dataset(TIME[kept], u[kept], TIME[kept], begin=50.0))
     assert [record.source for record in data.records] == ["run~1.csv", "run~2.csv"]
     assert [(r.begin, r.initial) for r in data.records] == [(50.0, None), (pytest.approx(51.1), "estimate")]
     for record, first, stop in ((0, 0, 1000), (1, 1100, 2000)):
-        time, filled = y_of(data, record)
-        np.testing.assert_allclose(time, TIME[first:stop], atol=1e-12)
-        np.testing.assert_allclose(filled, 2 * TIME[first:stop], atol=1e-12)
+        log = data.records[record].data
+        assert isinstance(log, Record)
+        np.testing.assert_allclose(log.time, TIME[first:stop], atol=1e-12)
+        np.testing.assert_allclose(log["u"], 2 * TIME[first:stop], atol=1e-12)
+        added = [400, 401, 402] if record == 0 else []  # where time itself had a gap, no output was measured
+        assert np.flatnonzero(np.isnan(log["y"])).tolist() == added
 
 
-def test_cells_that_are_missing_at_the_ends_are_cut_off() -> None:
-    y = TIME.copy()
-    y[:5] = y[-7:] = np.nan
-    data = FillGaps(1.0).apply(dataset(TIME, y))
+def test_outputs_are_filled_where_they_are_named_only() -> None:
+    """What is made up would be fitted as if it had been measured."""
+    y = TIME**2
+    y[[100, 101, 300]] = np.nan
+    np.testing.assert_array_equal(y_of(FillGaps(0.005).apply(dataset(TIME, y)))[1], y)
+    filled = y_of(FillGaps(0.005, ("y",)).apply(dataset(TIME, y)))[1]
+    np.testing.assert_allclose(filled, TIME**2, atol=1e-5)
+    with pytest.raises(BadInput, match="'z'"):
+        FillGaps(0.005, ("z",)).apply(dataset(TIME, y))
+
+
+def test_cells_of_inputs_that_are_missing_at_the_ends_are_cut_off() -> None:
+    u = TIME.copy()
+    u[:5] = u[-7:] = np.nan
+    data = FillGaps(1.0).apply(dataset(TIME, u, TIME))
     assert data.records[0].source == "run.csv"
     np.testing.assert_array_equal(y_of(data)[0], TIME[5:-7])
+    both = FillGaps(1.0, ("y",)).apply(dataset(TIME, TIME, u))
+    np.testing.assert_array_equal(y_of(both)[0], TIME[5:-7])
 
 
 def test_stretches_are_left_out() -> None:
@@ -233,15 +249,37 @@ def test_held_out_logs_are_those_of_a_name_and_its_parts() -> None:
 def test_filters_ask_for_a_log_without_gaps() -> None:
     y = TIME.copy()
     y[100] = np.nan
-    for step in (LowPass(10.0), Resample(100.0), Detrend(), Delay("y", 0.1)):
-        with pytest.raises(BadInput, match=r"y lacks 1 sample, the first at 0\.1 s; data = data\.fill_gaps\(0\.00"):
+    for step in (LowPass(10.0), Resample(100.0)):
+        said = r'y lacks 1 sample, the first at 0\.1 s; data = data\.fill_gaps\((0\.00\d+), "y"\)'
+        with pytest.raises(BadInput, match=said) as error:
             step.apply(dataset(TIME, y))
+        assert 'signals = ["y"] }] below [dataset]' in str(error.value)
+        step.apply(FillGaps(0.003, ("y",)).apply(dataset(TIME, y)))
+    with pytest.raises(BadInput, match=r"u lacks 1 sample, the first at 0\.1 s; data = data\.fill_gaps\(0\.00\d+\) "):
+        Delay("u", 0.1).apply(dataset(TIME, y, TIME))
+    kept = np.r_[0:400, 403:2000]
+    with pytest.raises(BadInput, match=r'lacks samples after 0\.399 s; data = data\.fill_gaps\(0\.00\d+, "y"\)'):
+        Resample(100.0).apply(dataset(TIME[kept], TIME[kept]))
+
+
+def test_an_output_that_lacks_samples_is_moved_and_its_line_taken_off() -> None:
+    whole = np.sin(20 * TIME)
+    y = whole.copy()
+    y[[100, 300, 301]] = np.nan
+    moved = y_of(Delay("y", 0.1).apply(dataset(TIME, y)))[1]
+    assert np.flatnonzero(np.isnan(moved)).tolist() == [100, 300, 301]
+    moved = y_of(Delay("y", 0.1004).apply(dataset(TIME, y)))[1]  # between two samples
+    assert np.count_nonzero(np.isnan(moved)) == 5
+    np.testing.assert_allclose(moved, np.where(np.isnan(moved), np.nan, np.sin(20 * (TIME[101:] - 0.1004))), atol=1e-9)
+    level = y_of(Detrend().apply(dataset(TIME, y)))[1]
+    np.testing.assert_allclose(level, y - np.nanmean(y), atol=1e-12)
 
 
 ALL = (
     (Trim(0.5, logs=("a", "b")), 'trim(start=0.5, logs=["a", "b"])', "trim:start=0.5,logs=a+b"),
     (Exclude("a", 1.0, 2.5), 'exclude("a", start=1, stop=2.5)', "exclude:a,start=1,stop=2.5"),
     (FillGaps(0.02), "fill_gaps(0.02)", "fill_gaps:0.02"),
+    (FillGaps(0.02, ("y",), 5), 'fill_gaps(0.02, "y", shortest=5)', "fill_gaps:0.02,y,shortest=5"),
     (DropOutliers(6.0, ("x", "y")), 'drop_outliers(6, "x", "y")', "drop_outliers:sigmas=6,x,y"),
     (Resample(500.0), "resample(500)", "resample:500"),
     (LowPass(50.0, ("x",)), 'lowpass(50, "x")', "lowpass:50,x"),
