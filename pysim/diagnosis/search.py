@@ -365,7 +365,7 @@ class Search:
         beside = partial(self._beside, present)
         near = self.floors.within(present, self.settings.near)
         starts = Starts(beside, self.fine if near else self.rough, near, self.floors.potential(present), self.settings)
-        wrong_by = self.settings.first_order_error if near else None
+        wrong_by = self.settings.first_order_error if near and starts.could_pass(starts.potential) else None
         sizes = screen(self.models, beside, self.rough, fits=starts.simulation, wrong_by=wrong_by)
         tried = best_of_each(sizes)
         sensors = with_sensor_errors(starts.here(present.candidate.transient), self.models)

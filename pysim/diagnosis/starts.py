@@ -73,13 +73,14 @@ class Starts:
         for one in sizes:
             if one.nonlinear:  # refitted to its end at once: no step on the way there promises what the end gains
                 found.append(self._runner(one.candidate, one.values, self.potential, ended=True))
-                worth.append((1, 1.0))
-        samples, size = rivals.samples(self.beside(False)), self.beside(False).candidate.size
-        chances = [
-            tried * rivals.p_value(one.most, df, samples, size + df, inflated)
-            for one, (df, inflated) in zip(found, worth, strict=True)
-        ]
-        return [one for one, chance in zip(found, chances, strict=True) if chance < self.settings.false_alarm]
+                worth.append((len(one.effect.parameters), 1.0))
+        return [one for one, own in zip(found, worth, strict=True) if self.could_pass(one.most, *own, tried)]
+
+    def could_pass(self, gain: float, df: int = 1, inflated: float = 1.0, tried: int = 1) -> bool:
+        """Whether the F test would accept this gain, nats, of df parameters, chosen among so many tried."""
+        present = self.beside(False)
+        chance = rivals.p_value(gain, df, rivals.samples(present), present.candidate.size + df, inflated)
+        return tried * chance < self.settings.false_alarm
 
     def _nearest(self, sizes: Sequence[Screened]) -> list[Runner]:
         """Further starts at the nominal parameters, as fitted ones may hide what an effect could do: limits at the size
