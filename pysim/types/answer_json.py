@@ -63,7 +63,7 @@ def step_data(step: ErrorStep, *, used_to_choose: bool = False) -> Json:
             "used_to_choose": used_to_choose,
             "test": step.test,
             "criteria": step.criteria,
-            "passes": None if step.passes and not step.criteria else step.passes,  # nothing was judged
+            "passes": step.passes,
             "cost": step.cost,
             "not_simulated": step.not_simulated,
         }
@@ -72,10 +72,8 @@ def step_data(step: ErrorStep, *, used_to_choose: bool = False) -> Json:
 
 def read_step(data: Mapping[str, Any]) -> ErrorStep:
     """The errors of a step that `step_data` wrote; an earlier version knew no logs that nobody looked at."""
-    known = {name: data[name] for name in ("step", "fit", "validate", "criteria")}
-    return ErrorStep(
-        **known, passes=data["passes"] is not False, test=data.get("test"), cost=data.get("cost", math.nan)
-    )
+    known = {name: data[name] for name in ("step", "fit", "validate", "criteria", "passes")}
+    return ErrorStep(**known, test=data.get("test"), cost=data.get("cost", math.nan))
 
 
 def _fit_percent(step: ErrorStep) -> Json:

@@ -28,18 +28,7 @@ from pysim.present.diagnosis.words import (
     verdict_sentence,
     verdict_words,
 )
-from pysim.types import (
-    Diagnosis,
-    Effect,
-    ErrorStep,
-    FoundEffect,
-    Left,
-    NextTest,
-    PlannedTest,
-    Rival,
-    read_step,
-    step_data,
-)
+from pysim.types import Diagnosis, Effect, ErrorStep, FoundEffect, Left, NextTest, PlannedTest, Rival
 from pysim.types.answer import StandsOut
 from tests.pysim.diagnosis_answer import LAW, OFFSET, estimate, found_offset, found_two, nothing, step
 
@@ -310,14 +299,6 @@ def test_a_model_without_limits_is_not_judged() -> None:
     for judge in (text, page, added_sentence, comparison_sentence, lambda one: next(figures(Diagnosed(one))).caption):
         assert re.search(r"Tables? 1\.", judge(found))
         assert not re.search(r"thesis|Tables? 1\.|limits?\b", judge(bare), re.IGNORECASE)
-
-
-def test_json_says_neither_yes_nor_no_where_no_limit_was_judged() -> None:
-    judged, lost = (step("prior", 25.0, None, size) for size in (0.1, 0.9))
-    bare = replace(judged, criteria={})
-    assert [step_data(one)["passes"] for one in (judged, lost, bare)] == [True, False, None]
-    assert step_data(replace(bare, passes=False, not_simulated=1))["passes"] is False
-    assert read_step(step_data(bare)).passes
 
 
 def test_json_has_each_sentence_beside_its_numbers() -> None:
