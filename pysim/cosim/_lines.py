@@ -1,4 +1,4 @@
-"""Inputs that run as straight lines within a step, for methods of second order."""
+"""Inputs that run as straight lines within a step: those that signals drive, and all for methods of second order."""
 
 from __future__ import annotations
 
@@ -12,6 +12,26 @@ from pysim.cosim.member import Array, Member
 # An extrapolation reaches so many times as far as the stretch it is made from: beyond that it is the stretch's
 # rounding, and a jump within it, that is carried on. Step doubling asks for four times at most.
 _FARTHEST = 10.0
+
+
+class Driven:
+    """Inputs of members that signals drive. A signal is known ahead, so these run as lines whatever the order.
+
+    A member that takes rates gets the line itself, any other the line's mean over the step.
+    """
+
+    def __init__(self, core: Core) -> None:
+        self._core, self._first = core, len(core.layout.outputs)
+        wires = [w for m in core.layout.members for w in core.layout.wires_to(m.name) if w.source >= self._first]
+        self.some = bool(wires)
+        self._holder = _Holder(core, wires)
+        self._ends = np.zeros(core.sources.size)
+
+    def hold(self, time: float, end: float, tick: int | None) -> None:
+        """Make inputs and rates for the step from `time` to `end` (s); see Lines.begin."""
+        begins = self._core.sources
+        self._ends[self._first :] = self._core.signals.toward(time, end, tick, begins[self._first :])
+        self._holder.hold(begins, self._ends, end - time)
 
 
 class Lines:
@@ -54,7 +74,7 @@ class Lines:
                 share = (end - time) / (time - before)
                 self.ends[:outputs] += share * (self.begins[:outputs] - values[:outputs])
         if core.layout.signals:
-            self.ends[self._signals] = core.signals.between(end) if tick is None else core.signals.at(tick)
+            self.ends[self._signals] = core.signals.toward(time, end, tick, core.sources[self._signals])
         for slots, sampler in self._moving:
             self.ends[slots] = sampler.ahead(end)
 

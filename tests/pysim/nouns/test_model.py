@@ -1,6 +1,7 @@
 """A model: what it holds, what is said of it, and how it runs."""
 
 import math
+import random
 from pathlib import Path
 
 import numpy as np
@@ -253,3 +254,18 @@ def test_a_run_prints_draws_and_is_saved(mass: Model, tmp_path: Path) -> None:
         run.save(tmp_path / "bench.csv")
     assert (tmp_path / "bench.csv").read_text() == "t,x\n0,1\n"
     assert math.isclose(run.time[-1], 1.0)
+
+
+def test_a_function_is_followed_however_long_the_run(mass: Model) -> None:
+    """2001 even times see zeros alone in the wave, and a jump late by up to the time between two of them."""
+    wave = mass.simulate(20.0, dt=0.007, record=["F"], F=lambda t: np.sin(100 * np.pi * t))
+    assert wave["F"] == pytest.approx(np.sin(100 * np.pi * wave.time), abs=1e-5)
+    jumping = mass.simulate(600.0, dt=0.1, F=lambda t: 1.0 if t < 1.05 else -2.0)
+    pairs = mass.simulate(600.0, dt=0.1, F=[(0.0, 1.0), (1.05, -2.0)])
+    assert jumping["x"] == pytest.approx(pairs["x"], abs=1e-3 * np.ptp(pairs["x"]))
+
+
+def test_a_function_without_an_end_to_its_changes_is_refused(mass: Model) -> None:
+    noise = random.Random(0).random
+    with pytest.raises(BadInput, match="input F: the function changes too fast"):
+        mass.simulate(1.0, F=lambda t: noise())
