@@ -21,17 +21,24 @@ class Driven:
     """
 
     def __init__(self, core: Core) -> None:
-        self._core, self._first = core, len(core.layout.outputs)
-        wires = [w for m in core.layout.members for w in core.layout.wires_to(m.name) if w.source >= self._first]
-        self.some = bool(wires)
-        self._holder = _Holder(core, wires)
-        self._ends = np.zeros(core.sources.size)
+        self._toward, self._view = core.signals.toward, core.row.view
+        first, shift = len(core.layout.outputs), len(core.layout.inputs)
+        self._plan = [
+            (wire.source, wire.source - first, wire.target, wire.target + shift if member.takes_rates else None)
+            for member in core.layout.members
+            for wire in core.layout.wires_to(member.name)
+            if wire.source >= first
+        ]
+        self.some = bool(self._plan)
 
     def hold(self, time: float, end: float, tick: int | None) -> None:
         """Make inputs and rates for the step from `time` to `end` (s); see Lines.begin."""
-        begins = self._core.sources
-        self._ends[self._first :] = self._core.signals.toward(time, end, tick, begins[self._first :])
-        self._holder.hold(begins, self._ends, end - time)
+        view, ends, size = self._view, self._toward(time, end, tick), end - time
+        for source, place, target, rate in self._plan:
+            if rate is None:
+                view[target] = 0.5 * (view[source] + ends[place])
+            else:
+                view[rate] = (ends[place] - view[source]) / size
 
 
 class Lines:
@@ -74,7 +81,7 @@ class Lines:
                 share = (end - time) / (time - before)
                 self.ends[:outputs] += share * (self.begins[:outputs] - values[:outputs])
         if core.layout.signals:
-            self.ends[self._signals] = core.signals.toward(time, end, tick, core.sources[self._signals])
+            self.ends[self._signals] = core.signals.toward(time, end, tick)
         for slots, sampler in self._moving:
             self.ends[slots] = sampler.ahead(end)
 

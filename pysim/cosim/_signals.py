@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 
 import numpy as np
@@ -23,9 +22,9 @@ class Signals:
         self._start, self._step = experiment.start, step
         followed = [_followed(experiment, name) for name in layout.signals]
         self._functions, self._jumps = [one for one, _ in followed], [jumps for _, jumps in followed]
-        self._tick = self._left_tick = 0
+        self._tick = self._end_tick = 0
         self._rows: list[memoryview[float]] = []
-        self._lefts: list[tuple[Array, Array]] = []
+        self._end_rows: list[memoryview[float]] = []
 
     def at(self, tick: int) -> memoryview[float]:
         """Values at start + tick * step."""
@@ -39,23 +38,21 @@ class Signals:
         """Values at any time, s."""
         return view_of(self._values(after(np.array([time])))[0])
 
-    def toward(self, time: float, end: float, tick: int | None, values: Array) -> Array:
-        """Where lines that leave `values` at `time` arrive at `end` (s), to the left of a jump there.
+    def toward(self, time: float, end: float, tick: int | None) -> memoryview[float]:
+        """Where lines that leave the values at `time` arrive at `end` (s), to the left of a jump there.
 
         A signal that jumps on the way keeps its value: a step stays a step, and comes with the next point.
 
         Args:
             tick: number of the communication point at `end`, if it is one.
         """
-        if tick is None:
-            left, latest = self._left(np.array([end]))[0]
-        else:
-            line = tick - self._left_tick
-            if not 0 <= line < len(self._lefts):
-                self._left_tick, line = tick, 0
-                self._lefts = self._left(self._times(tick))
-            left, latest = self._lefts[line]
-        return np.where(latest > time + 4 * math.ulp(time), values, left)
+        if tick is None or time != self._start + (tick - 1) * self._step:
+            return view_of(self._ends(np.array([time]), np.array([end]))[0])
+        line = tick - self._end_tick
+        if not 0 <= line < len(self._end_rows):
+            self._end_tick, line = tick, 0
+            self._end_rows = [view_of(row) for row in self._ends(self._times(tick - 1), self._times(tick))]
+        return self._end_rows[line]
 
     def _times(self, tick: int) -> Array:
         return np.asarray(self._start + np.arange(tick, tick + _PART) * self._step)
@@ -63,11 +60,10 @@ class Signals:
     def _values(self, times: Array) -> Array:
         return np.column_stack([of(times) for of in self._functions])
 
-    def _left(self, times: Array) -> list[tuple[Array, Array]]:
-        """To the left of each time: the values, and when each signal jumped last (n_s)."""
-        left = before(times)
-        latest = [at[np.searchsorted(at, left, side="right") - 1] for at in self._jumps]
-        return list(zip(self._values(left), np.column_stack(latest), strict=True))
+    def _ends(self, times: Array, ends: Array) -> Array:
+        first, last = after(times), before(ends)
+        latest = np.column_stack([jumps[np.searchsorted(jumps, last, side="right") - 1] for jumps in self._jumps])
+        return np.where(latest > first[:, None], self._values(first), self._values(last))
 
 
 def after(times: NDArray[np.floating]) -> Array:

@@ -37,12 +37,15 @@ def cosimulate(
     """Run models and controllers together from 0 to `stop`.
 
     Args:
-        members: name -> an .fmu, a model, a block or member of `pysim.cosim`, or a plain object with `step(t, ...)`,
-            whose arguments after the time are its inputs. A controller is sampled every `dt`, or every `dt` of its own.
+        members: name -> an .fmu, a model, a block or member of `pysim.cosim`, or a controller: an object with
+            `step(t, ...)`, or a function f(t, ...), whose arguments after the time are its inputs. It is sampled every
+            `dt`, or every `dt` of its own. The run steps a copy of it, which `controllers` of the run has at the end.
         dt: s between two communication points.
-        stop: end of the run, s.
+        stop: end of the run, s, a whole number of `dt`.
         wires: "member.output" -> "member.input", or a row of them where it drives several.
         inputs: "member.input" -> number, pairs (s, value), a row of values, a pandas column, or a function of time.
+            A step jumps at a communication point. Between two points an input is a line, or its mean for an FMU that
+            takes none.
         record: "member.port"; all outputs and driven inputs by default.
         check: False gives back what a run that failed has reached, in place of an error.
         progress: see `pysim.present.progress.showing`.
