@@ -83,7 +83,7 @@ def signal_of(value: Input, stop: float, name: str, points: Array | None = None)
         if isinstance(value, int | float | np.number):
             return Signal.constant(float(value))
         if callable(value):
-            return _curve(value, stop, name) if points is None else _lines(value, points)
+            return _curve(value, stop) if points is None else _lines(value, points)
         if hasattr(value, "index") and hasattr(value, "to_numpy"):
             return Signal.lines(np.asarray(value.index, dtype=float), np.asarray(value.to_numpy(), dtype=float))
         rows = np.asarray(value, dtype=float)
@@ -98,11 +98,11 @@ def signal_of(value: Input, stop: float, name: str, points: Array | None = None)
     )
 
 
-def _curve(function: Callable[[float], float], stop: float, name: str) -> Signal:
+def _curve(function: Callable[[float], float], stop: float) -> Signal:
     """A curve through points of the function and its rate; where it misses the function between two, there is one more.
 
     Raises:
-        BadInput: there would be too many.
+        ValueError: there would be too many.
     """
     time = np.linspace(0.0, stop, _POINTS)
     value, rate = _at(function, time), _rate(function, time, stop)
@@ -116,10 +116,7 @@ def _curve(function: Callable[[float], float], stop: float, name: str) -> Signal
         if not wrong.size:
             return curve
         if time.size > _MOST:
-            raise BadInput(
-                f"input {name}: the function changes too fast to be followed to {stop:g} s; give a row of its values",
-                argument=name,
-            )
+            raise ValueError(f"the function changes too fast to be followed to {stop:g} s; give a row of its values")
         rate = np.insert(rate, wrong + 1, _rate(function, between[wrong], stop))
         time, value = np.insert(time, wrong + 1, between[wrong]), np.insert(value, wrong + 1, seen[wrong])
 
@@ -135,7 +132,10 @@ def _lines(function: Callable[[float], float], points: Array) -> Signal:
 
 
 def _at(function: Callable[[float], float], times: Array) -> Array:
-    return np.array([float(function(time)) for time in times.tolist()])
+    found = np.array([function(time) for time in times.tolist()])
+    if found.dtype.kind not in "biuf" or found.size != times.size or not np.isfinite(found).all():
+        raise ValueError("the function returns what is no finite number; let it return one for each time in s")
+    return found.reshape(-1).astype(np.float64)
 
 
 def _rate(function: Callable[[float], float], times: Array, stop: float) -> Array:

@@ -267,5 +267,15 @@ def test_a_function_is_followed_however_long_the_run(mass: Model) -> None:
 
 def test_a_function_without_an_end_to_its_changes_is_refused(mass: Model) -> None:
     noise = random.Random(0).random
-    with pytest.raises(BadInput, match="input F: the function changes too fast"):
+    with pytest.raises(BadInput, match=r"^input F: the function changes too fast"):
         mass.simulate(1.0, F=lambda t: noise())
+
+
+@pytest.mark.parametrize("given", [None, "5", math.nan, [1.0, 2.0]])
+def test_a_function_returns_numbers(mass: Model, given: object) -> None:
+    array = mass.simulate(1.0, F=lambda t: np.array([t]))
+    assert np.array_equal(array["x"], mass.simulate(1.0, F=lambda t: t)["x"])
+    with pytest.raises(BadInput, match=r"^input F: .* no finite number; let it return one"):
+        mass.simulate(1.0, F=lambda t: given)
+    with pytest.raises(BadInput, match=r"^input a\.F: .* no finite number; let it return one"):
+        pysim.cosimulate({"a": mass}, dt=0.1, stop=1.0, wires={}, inputs={"a.F": lambda t: given})
