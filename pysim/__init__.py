@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from pysim.nouns.example import example
     from pysim.nouns.fit import fit
     from pysim.nouns.model import model
-    from pysim.types import BadInput
+    from pysim.types import BadInput, SimulationError
     from pysim.workflow import open_session
 
 _FILES = {
@@ -33,7 +33,7 @@ _FILES = {
     "nouns.example": ("example",),
     "nouns.fit": ("fit",),
     "nouns.model": ("model",),
-    "types": ("BadInput",),
+    "types": ("BadInput", "SimulationError"),
     "workflow": ("open_session",),
 }
 __all__ = [
@@ -44,6 +44,7 @@ __all__ = [
     "Effect",
     "Fit",
     "Model",
+    "SimulationError",
     "compare",
     "cosimulate",
     "diagnose",

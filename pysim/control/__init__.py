@@ -1,7 +1,7 @@
-"""Controllers as small blocks: sampled, with a state that can be kept (thesis Section 5.4)."""
+"""Controllers as small blocks: sampled (thesis Section 5.4)."""
 
 from pysim.control.bench_controllers import CompensatedLoadController, LoadController, SpeedController
-from pysim.control.block import Block, Stateless
+from pysim.control.block import Block
 from pysim.control.pi import PI
 from pysim.control.signals import Gain, Limiter, NormalizeSignal, ZeroSwitch, load_feed_forward, speed_feed_forward
 from pysim.control.valve_compensation import ValveCompensation
@@ -17,7 +17,6 @@ __all__ = [
     "NormalizeSignal",
     "Port",
     "SpeedController",
-    "Stateless",
     "ValveCompensation",
     "ZeroSwitch",
     "load_feed_forward",

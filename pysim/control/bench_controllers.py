@@ -64,14 +64,6 @@ class SpeedController:
             pi = 0.0
         return 100 * min(max(pi + feed, -largest), largest) / largest, pi
 
-    def state(self) -> tuple[float, ...]:
-        """That of its PI part."""
-        return self._pi.state()
-
-    def restore(self, state: Sequence[float]) -> None:
-        """Go on from a state that was kept."""
-        self._pi.restore(state)
-
 
 @dataclass
 class LoadController:
@@ -102,14 +94,6 @@ class LoadController:
         feed = -self.feed * speed
         pi = self._pi.advance(reference - measured, -1 - feed, 1 - feed)
         return min(max(pi + feed, -1.0), 1.0), pi
-
-    def state(self) -> tuple[float, ...]:
-        """That of its PI part."""
-        return self._pi.state()
-
-    def restore(self, state: Sequence[float]) -> None:
-        """Go on from a state that was kept."""
-        self._pi.restore(state)
 
 
 @dataclass
@@ -175,12 +159,3 @@ class CompensatedLoadController:
         pi = self._pi.advance(reference - measured, -downwards - feed, upwards - feed)
         flow = pi + feed
         return min(max(flow / (upwards if flow > 0 else downwards), -1.0), 1.0), pi
-
-    def state(self) -> tuple[float, ...]:
-        """That of its PI part, and the smoothed load pressure."""
-        return (*self._pi.state(), self._smooth)
-
-    def restore(self, state: Sequence[float]) -> None:
-        """Go on from a state that was kept."""
-        *pi, self._smooth = state
-        self._pi.restore(pi)

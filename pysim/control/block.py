@@ -1,4 +1,4 @@
-"""What a controller is to a co-simulation: named inputs and outputs, a step, and a state that can be kept."""
+"""What a controller is to a co-simulation: named inputs and outputs, and a step."""
 
 from __future__ import annotations
 
@@ -31,22 +31,3 @@ class Block(Protocol):
             values in the order of `outputs`, held until the next sample.
         """
         ...
-
-    def state(self) -> tuple[float, ...]:
-        """All that the next step depends on beside its inputs."""
-        ...
-
-    def restore(self, state: Sequence[float]) -> None:
-        """Go on from a state that was kept."""
-        ...
-
-
-class Stateless:
-    """State of a block that remembers nothing."""
-
-    def state(self) -> tuple[float, ...]:
-        """Nothing."""
-        return ()
-
-    def restore(self, state: Sequence[float]) -> None:
-        """Nothing to go on from."""

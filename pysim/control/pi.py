@@ -80,11 +80,3 @@ class PI:
     def rest(self) -> None:
         """One sample that is not active and keeps the output for later."""
         self._begun = 0.0
-
-    def state(self) -> tuple[float, ...]:
-        """Output, error, and whether it was active."""
-        return (self._u, self._error, self._begun)
-
-    def restore(self, state: Sequence[float]) -> None:
-        """Go on from a state that was kept."""
-        self._u, self._error, self._begun = state

@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from pysim.control._check import check_numbers
-from pysim.control.block import Stateless
 from pysim.types import BadInput, Port
 
 
 @dataclass
-class Gain(Stateless):
+class Gain:
     """output = gain * input.
 
     Args:
@@ -59,7 +58,7 @@ def load_feed_forward(K_L: float, K_qu: float) -> Gain:
 
 
 @dataclass
-class Limiter(Stateless):
+class Limiter:
     """The input, kept within low ... high.
 
     Source: `limit1` of thesis Table 13.
@@ -81,7 +80,7 @@ class Limiter(Stateless):
 
 
 @dataclass
-class ZeroSwitch(Stateless):
+class ZeroSwitch:
     """Lets a signal through while a speed's size is at least a threshold, else zero.
 
     Its second output says so, for the `active` of a controller ahead of it.
@@ -109,7 +108,7 @@ class ZeroSwitch(Stateless):
 
 
 @dataclass
-class NormalizeSignal(Stateless):
+class NormalizeSignal:
     """Swash plate angle in percent of the largest, within 100 percent either way.
 
     Args:

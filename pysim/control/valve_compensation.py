@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from pysim.control._check import check_numbers
-from pysim.control.block import Stateless
 from pysim.types import BadInput, Port
 
 
 @dataclass
-class ValveCompensation(Stateless):
+class ValveCompensation:
     """u = Q / (K sqrt((p_s - sign(Q) p_L) / rho)), within the valve's limits.
 
     With it the loop sees a valve whose flow is what was asked for, whatever the load pressure; so a feed-forward of the

@@ -1,4 +1,4 @@
-"""Inputs that run as straight lines within a step, for methods of second order."""
+"""Inputs that run as straight lines within a step: those that signals drive, and all for methods of second order."""
 
 from __future__ import annotations
 
@@ -12,6 +12,33 @@ from pysim.cosim.member import Array, Member
 # An extrapolation reaches so many times as far as the stretch it is made from: beyond that it is the stretch's
 # rounding, and a jump within it, that is carried on. Step doubling asks for four times at most.
 _FARTHEST = 10.0
+
+
+class Driven:
+    """Inputs of members that signals drive. A signal is known ahead, so these run as lines whatever the order.
+
+    A member that takes rates gets the line itself, any other the line's mean over the step.
+    """
+
+    def __init__(self, core: Core) -> None:
+        self._toward, self._view = core.signals.toward, core.row.view
+        first, shift = len(core.layout.outputs), len(core.layout.inputs)
+        self._plan = [
+            (wire.source, wire.source - first, wire.target, wire.target + shift if member.takes_rates else None)
+            for member in core.layout.members
+            for wire in core.layout.wires_to(member.name)
+            if wire.source >= first
+        ]
+        self.some = bool(self._plan)
+
+    def hold(self, time: float, end: float, tick: int | None) -> None:
+        """Make inputs and rates for the step from `time` to `end` (s); see Lines.begin."""
+        view, ends, size = self._view, self._toward(time, end, tick), end - time
+        for source, place, target, rate in self._plan:
+            if rate is None:
+                view[target] = 0.5 * (view[source] + ends[place])
+            else:
+                view[rate] = (ends[place] - view[source]) / size
 
 
 class Lines:
@@ -54,7 +81,7 @@ class Lines:
                 share = (end - time) / (time - before)
                 self.ends[:outputs] += share * (self.begins[:outputs] - values[:outputs])
         if core.layout.signals:
-            self.ends[self._signals] = core.signals.between(end) if tick is None else core.signals.at(tick)
+            self.ends[self._signals] = core.signals.toward(time, end, tick)
         for slots, sampler in self._moving:
             self.ends[slots] = sampler.ahead(end)
 

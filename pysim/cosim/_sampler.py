@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import reprlib
 from collections import deque
 from collections.abc import Callable, Sequence
@@ -14,17 +15,18 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
+from pysim.control import Block
 from pysim.cosim._fault import Fault, fault
 from pysim.cosim._layout import Layout, Row, Wire
-from pysim.cosim.sampled import Sampled, numbers
+from pysim.cosim.sampled import Sampled
 from pysim.io import counted
-from pysim.types import Outcome
+from pysim.types import BadInput, Outcome
 
 
 class SamplerState(NamedTuple):
     """What a block and its hold remember."""
 
-    block: tuple[float, ...]
+    block: Block
     values: tuple[float, ...]
     before: tuple[float, ...]
     time: float
@@ -54,9 +56,8 @@ class Sampler:
         self, sampled: Sampled, row: Row, layout: Layout, every: int, delay: int, step: float, *, keeps_inputs: bool
     ) -> None:
         place = layout.places[sampled.name]
-        self.name, self.hold, self._block, self._initial = sampled.name, sampled.hold, sampled.block, sampled.initial
-        self._remains = sampled.remains
-        self._step, self._every, self._delay, self._period = sampled.block.step, every, delay, every * step
+        self.name, self.hold = sampled.name, sampled.hold
+        self._every, self._delay, self._period = every, delay, every * step
         self._view, self._ports = row.view, sampled.outputs
         self._wires = layout.wires_to(sampled.name)
         self._gather = None if keeps_inputs else _gatherer(place.inputs, self._wires)
@@ -64,15 +65,7 @@ class Sampler:
         self._read = partial(inputs.unpack_from, row.view, 8 * place.inputs.start)
         self._write = partial(outputs.pack_into, row.view, 8 * place.outputs.start)
         self._pack = outputs.pack
-        self.reset()
-
-    def reset(self) -> None:
-        """Be as ahead of the first sample.
-
-        Raises:
-            BadInput: the block cannot.
-        """
-        self._remains.begin(self.name, self._block, self._initial)
+        self._take_over(sampled.block)
         values = tuple(port.start or 0.0 for port in self._ports)
         self._values: Sequence[float] = values
         self._before = values
@@ -80,6 +73,20 @@ class Sampler:
         self._waiting: deque[tuple[int, tuple[float, ...]]] = deque()
         self._fresh = True
         self._write(*values)
+
+    def _take_over(self, block: Block) -> None:
+        """Go on with a copy: whatever the block holds, what it was copied from stays as it is.
+
+        Raises:
+            BadInput: it cannot be copied.
+        """
+        try:
+            self.block = copy.deepcopy(block)
+        except Exception as error:  # whatever its parts raise
+            raise BadInput(
+                f"{self.name}: it cannot be copied, as each run needs ({error}); open files and connections in step"
+            ) from error
+        self._step = self.block.step
 
     def sample(self, tick: int | None, time: float) -> None:
         """Step the block if its time has come; it never has between communication points, where tick is None.
@@ -165,12 +172,12 @@ class Sampler:
 
     def save(self) -> SamplerState:
         """All that the next samples depend on."""
-        block = numbers(self.name, self._block.state())
+        block = copy.deepcopy(self.block)
         return SamplerState(block, tuple(self._values), self._before, self._time, self._fresh, tuple(self._waiting))
 
     def restore(self, state: SamplerState) -> None:
         """Go on from a state that was saved. Outputs are not written."""
-        self._block.restore(state.block)
+        self._take_over(state.block)
         self._values, self._before, self._time, self._fresh = state.values, state.before, state.time, state.fresh
         self._waiting = deque(state.waiting)
 

@@ -1,4 +1,4 @@
-"""The experiment's signals at communication points and between them."""
+"""The experiment's signals at communication points, between them, and over a step."""
 
 from __future__ import annotations
 
@@ -20,32 +20,65 @@ class Signals:
 
     def __init__(self, experiment: Experiment, layout: Layout, step: float) -> None:
         self._start, self._step = experiment.start, step
-        self._functions = [_function(experiment, name) for name in layout.signals]
-        self._tick = 0
+        followed = [_followed(experiment, name) for name in layout.signals]
+        self._functions, self._jumps = [one for one, _ in followed], [jumps for _, jumps in followed]
+        self._tick = self._end_tick = 0
         self._rows: list[memoryview[float]] = []
+        self._end_rows: list[memoryview[float]] = []
 
     def at(self, tick: int) -> memoryview[float]:
         """Values at start + tick * step."""
         line = tick - self._tick
         if not 0 <= line < len(self._rows):
             self._tick, line = tick, 0
-            times = _after(self._start + np.arange(tick, tick + _PART) * self._step)
-            table = np.column_stack([of(times) for of in self._functions])
-            self._rows = [view_of(row) for row in table]
+            self._rows = [view_of(row) for row in self._values(after(self._times(tick)))]
         return self._rows[line]
 
     def between(self, time: float) -> memoryview[float]:
         """Values at any time, s."""
-        times = _after(np.array([time]))
-        return view_of(np.array([of(times)[0] for of in self._functions], dtype=np.float64))
+        return view_of(self._values(after(np.array([time])))[0])
+
+    def toward(self, time: float, end: float, tick: int | None) -> memoryview[float]:
+        """Where lines that leave the values at `time` arrive at `end` (s), to the left of a jump there.
+
+        A signal that jumps on the way keeps its value: a step stays a step, and comes with the next point.
+
+        Args:
+            tick: number of the communication point at `end`, if it is one.
+        """
+        if tick is None or time != self._start + (tick - 1) * self._step:
+            return view_of(self._ends(np.array([time]), np.array([end]))[0])
+        line = tick - self._end_tick
+        if not 0 <= line < len(self._end_rows):
+            self._end_tick, line = tick, 0
+            self._end_rows = [view_of(row) for row in self._ends(self._times(tick - 1), self._times(tick))]
+        return self._end_rows[line]
+
+    def _times(self, tick: int) -> Array:
+        return np.asarray(self._start + np.arange(tick, tick + _PART) * self._step)
+
+    def _values(self, times: Array) -> Array:
+        return np.column_stack([of(times) for of in self._functions])
+
+    def _ends(self, times: Array, ends: Array) -> Array:
+        first, last = after(times), before(ends)
+        latest = np.column_stack([jumps[np.searchsorted(jumps, last, side="right") - 1] for jumps in self._jumps])
+        return np.where(latest > first[:, None], self._values(first), self._values(last))
 
 
-def _after(times: NDArray[np.floating]) -> Array:
+def after(times: NDArray[np.floating]) -> Array:
     """The same times, to the right of a jump that rounding would put behind them."""
     return np.asarray(times + 4 * np.spacing(np.abs(times)), dtype=np.float64)
 
 
-def _function(experiment: Experiment, name: str) -> Callable[[Array], Array]:
-    if name in experiment.rates:
-        return experiment.inputs[experiment.rates[name]].derivative
-    return experiment.inputs[name].value
+def before(times: NDArray[np.floating]) -> Array:
+    """The same times, to the left of a jump that rounding would put ahead of them."""
+    return -after(-times)
+
+
+def _followed(experiment: Experiment, name: str) -> tuple[Callable[[Array], Array], Array]:
+    """A signal, or the rate of one, and the times at which it jumps (s), behind one long ago."""
+    is_rate = name in experiment.rates
+    signal = experiment.inputs[experiment.rates.get(name, name)]
+    jumps = signal.starts[signal.breaks()[is_rate]]  # a rate jumps where its signal has a kink
+    return signal.derivative if is_rate else signal.value, np.append(-np.inf, jumps)

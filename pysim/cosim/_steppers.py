@@ -4,18 +4,25 @@ from __future__ import annotations
 
 from typing import Any
 
-from pysim.cosim._lines import Lines
+from pysim.cosim._core import Core
+from pysim.cosim._lines import Driven, Lines
 from pysim.cosim._sweep import Sweep
 
 
 class Held:
-    """Inputs are what the communication point left in the row."""
+    """Inputs from other parts are what the communication point left in the row."""
 
     memory: Any = None
     lines = False
 
-    def __init__(self, sweep: Sweep) -> None:
-        self.advance = sweep.__call__
+    def __init__(self, core: Core, sweep: Sweep) -> None:
+        driven = Driven(core)
+
+        def along(time: float, end: float, tick: int | None = None) -> float:
+            driven.hold(time, end, tick)
+            return sweep(time, end)
+
+        self.advance = along if driven.some else sweep.__call__
 
 
 class Remembering:

@@ -53,7 +53,8 @@ class GaussSeidel:
         ordered = self.order or stepping_order(core.system, names)
         before = [ordered[:number] for number in range(len(ordered))]
         if not self.lines:
-            return Held(Sweep(core, ordered, [carrier(core, n, b) for n, b in zip(ordered, before, strict=True)]))
+            sweep = Sweep(core, ordered, [carrier(core, n, b) for n, b in zip(ordered, before, strict=True)])
+            return Held(core, sweep)
         lines = Lines(core)
         prepare = [_interpolator(core, lines, n, b) for n, b in zip(ordered, before, strict=True)]
         return Lined(Sweep(core, ordered, prepare), lines)

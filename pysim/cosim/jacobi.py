@@ -37,4 +37,4 @@ class Jacobi:
         # Those that may return early go first: then nobody has gone past their event.
         names = [m.name for m in sorted(core.layout.members, key=lambda m: not m.may_return_early)]
         sweep = Sweep(core, names, [None] * len(names))
-        return Lined(sweep, Lines(core)) if self.lines else Held(sweep)
+        return Lined(sweep, Lines(core)) if self.lines else Held(core, sweep)

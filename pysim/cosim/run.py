@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from contextlib import ExitStack
 from dataclasses import dataclass, field
 from functools import partial
@@ -11,6 +11,7 @@ from threading import Lock
 from types import TracebackType
 from typing import Any, TypeVar
 
+from pysim.control import Block
 from pysim.cosim._core import Core
 from pysim.cosim._fault import Fault
 from pysim.cosim._layout import Layout, Row, lay_out
@@ -23,14 +24,14 @@ from pysim.cosim._trace import Trace
 from pysim.cosim.doubling import Doubling
 from pysim.cosim.iterated import check_rollback
 from pysim.cosim.jacobi import Jacobi
+from pysim.cosim.member import Member
 from pysim.cosim.order import Order
-from pysim.cosim.sampled import Sampled
-from pysim.cosim.system import Part, System
+from pysim.cosim.system import System
 from pysim.types import BadInput, Experiment, Outcome, Record, SimulationError
 
 Result = TypeVar("Result")
 
-# Members and blocks of runs that are open; each can be in one at a time.
+# Members of runs that are open; each can be in one at a time.
 _at_work: set[int] = set()
 _claiming = Lock()
 
@@ -79,7 +80,7 @@ class Run:
         self._open = False
 
     def __enter__(self) -> Run:
-        _claim(self.system)
+        _claim(self._layout.members)
         try:
             self._build()
             self._or_stop(partial(start, self._core, self.experiment, self.step))
@@ -91,6 +92,11 @@ class Run:
 
     def __exit__(self, kind: type | None, error: BaseException | None, trace: TracebackType | None) -> None:
         self._close()
+
+    @property
+    def blocks(self) -> Mapping[str, Block]:
+        """The copies of its sampled blocks that this run steps, by name, as they are now."""
+        return {name: sampler.block for name, sampler in self._samplers.items()}
 
     @property
     def time(self) -> float:
@@ -220,29 +226,21 @@ class Run:
     def _close(self) -> None:
         self._open = False
         with ExitStack() as stack:  # every one is closed, whatever the others do
-            stack.callback(_release, self.system)
+            stack.callback(_release, self._layout.members)
             for member in self._layout.members:
                 stack.callback(member.close)
-            for sampled in self._layout.blocks:
-                stack.callback(sampled.remains.end, sampled.block)
 
 
-def _claim(system: System) -> None:
+def _claim(members: Sequence[Member]) -> None:
     with _claiming:
-        for member in system.members:
-            if _identity(member) in _at_work:
-                kind = "block" if isinstance(member, Sampled) else "member"
+        for member in members:
+            if id(member) in _at_work:
                 raise BadInput(
-                    f"co-simulation: {member.name} is at work in another run; close that first, or make another {kind}"
+                    f"co-simulation: {member.name} is at work in another run; close that first, or make another member"
                 )
-        _at_work.update(map(_identity, system.members))
+        _at_work.update(map(id, members))
 
 
-def _release(system: System) -> None:
+def _release(members: Sequence[Member]) -> None:
     with _claiming:
-        _at_work.difference_update(map(_identity, system.members))
-
-
-def _identity(member: Part) -> int:
-    """Of what only one run can have: the member, or its block under whatever name."""
-    return id(member.block if isinstance(member, Sampled) else member)
+        _at_work.difference_update(map(id, members))

@@ -3,15 +3,11 @@
 from __future__ import annotations
 
 import math
-import reprlib
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Mapping
+from dataclasses import dataclass
 from numbers import Real
 
-import numpy as np
-
 from pysim.control import Block
-from pysim.cosim._remains import Remains
 from pysim.types import BadInput, Port
 
 
@@ -21,14 +17,13 @@ class Sampled:
 
     Args:
         name: unique in its system, without a dot.
-        block: has `inputs`, `outputs`, `step`, `state` and `restore`; each run starts from the state it has now.
+        block: has `inputs`, `outputs` and `step`. Each run steps a copy of it as it is by then.
         every: s between two samples, a whole number of communication steps.
         delay: s from a sample to its outputs, a whole number of communication steps; with zero they are set at the
             sample's own time, as by an ideal controller.
         hold: 0 keeps an output until the next sample; 1 lets it run on along the line through its last two values.
     Raises:
-        BadInput: no block, times that are not positive, an unknown hold, a block made for another rate, or one whose
-            state holds more than numbers.
+        BadInput: no block, times that are not positive, an unknown hold, or a block made for another rate.
     """
 
     name: str
@@ -36,11 +31,9 @@ class Sampled:
     every: float
     delay: float = 0.0
     hold: int = 0
-    initial: tuple[float, ...] = field(init=False, repr=False)
-    remains: Remains = field(init=False, repr=False, compare=False, default_factory=Remains)
 
     def __post_init__(self) -> None:
-        for attribute in ("inputs", "outputs", "step", "state", "restore"):
+        for attribute in ("inputs", "outputs", "step"):
             if not hasattr(self.block, attribute):
                 raise BadInput(f"{self.name}: {self.block!r} has no {attribute!r}; see docs/tutorials/controller.md")
         for port in (*self.block.inputs, *self.block.outputs):
@@ -60,7 +53,6 @@ class Sampled:
             raise BadInput(
                 f"{self.name}: the block has dt = {own:g} s but is sampled every {self.every:g} s; make both one"
             )
-        object.__setattr__(self, "initial", numbers(self.name, self.block.state()))
 
     @property
     def inputs(self) -> tuple[Port, ...]:
@@ -78,19 +70,3 @@ class Sampled:
         if self.delay > 0:
             return {}
         return {port.name: frozenset(p.name for p in self.inputs) for port in self.outputs}
-
-
-def numbers(name: str, state: Sequence[float]) -> tuple[float, ...]:
-    """A block's state, which has to stay as it is while the block goes on.
-
-    Raises:
-        BadInput: it holds an array, or whatever else could change in place.
-    """
-    kept = tuple(state)
-    for value in kept:
-        if not isinstance(value, (Real, np.bool_)):
-            raise BadInput(
-                f"{name}: its state holds {reprlib.repr(value)}, which is no number; return numbers alone, those of an "
-                "array x as tuple(x)"
-            )
-    return kept

@@ -44,7 +44,6 @@ class System:
         for member in self.members:
             check_member(member)
         check_unique("members", [m.name for m in self.members])
-        self._check_blocks()
         ports = {
             "input": {f"{m.name}.{p.name}": p for m in self.members for p in m.inputs},
             "output": {f"{m.name}.{p.name}": p for m in self.members for p in m.outputs},
@@ -57,15 +56,6 @@ class System:
         check_unique("bonds", [bond.name for bond in self.bonds])
         for bond in self.bonds:
             self._check_bond(bond)
-
-    def _check_blocks(self) -> None:
-        blocks: dict[int, str] = {}
-        for part in self.members:
-            if isinstance(part, Sampled) and blocks.setdefault(id(part.block), part.name) != part.name:
-                raise BadInput(
-                    f"system: {blocks[id(part.block)]} and {part.name} share one block; make a block for each, as they "
-                    "would share its state"
-                )
 
     @cached_property
     def drivers(self) -> Mapping[str, Connection]:

@@ -7,11 +7,14 @@ from pathlib import Path
 from typing import Any, Protocol
 
 import numpy as np
+from numpy.typing import NDArray
 
 from pysim.types import BadInput, Dataset, Signal
 from pysim.types.kinds import path_of
 
-_POINTS = 2001  # at which a function of time is looked at
+_POINTS = 2001  # at which a function of time is looked at first
+_MOST = 2**17  # at which it may be looked at, if it needs more
+_NEAR = 1e-6  # share of its range within which a curve is the function, and of the run within which it may jump
 
 
 class HoldsDataset(Protocol):
@@ -23,6 +26,7 @@ class HoldsDataset(Protocol):
         ...
 
 
+Array = NDArray[np.float64]
 Measured = HoldsDataset | Dataset | Path | str
 Input = float | Sequence[Any] | Callable[[float], float] | Signal | Any
 
@@ -60,7 +64,7 @@ def libraries_of(library: Path | str | Sequence[Path | str]) -> tuple[Path, ...]
     return found
 
 
-def signal_of(value: Input, stop: float, name: str) -> Signal:
+def signal_of(value: Input, stop: float, name: str, points: Array | None = None) -> Signal:
     """An input over time, in its unit.
 
     Args:
@@ -68,8 +72,10 @@ def signal_of(value: Input, stop: float, name: str) -> Signal:
             row of values spread evenly from 0 to `stop`, with straight lines between; a function of time; or a Signal.
         stop: end of the run, s.
         name: of the input, for messages.
+        points: (n_t,) s, from 0 to `stop`: a function is a line between two of them, and may jump at each. Without
+            them, it is looked at as often as it needs.
     Raises:
-        BadInput: it is none of these.
+        BadInput: it is none of these, or a function that changes faster than can be looked at.
     """
     if isinstance(value, Signal):
         return value
@@ -77,8 +83,7 @@ def signal_of(value: Input, stop: float, name: str) -> Signal:
         if isinstance(value, int | float | np.number):
             return Signal.constant(float(value))
         if callable(value):
-            times = np.linspace(0.0, stop, _POINTS)
-            return Signal.through(times, [float(value(t)) for t in times.tolist()])
+            return _curve(value, stop) if points is None else _lines(value, points)
         if hasattr(value, "index") and hasattr(value, "to_numpy"):
             return Signal.lines(np.asarray(value.index, dtype=float), np.asarray(value.to_numpy(), dtype=float))
         rows = np.asarray(value, dtype=float)
@@ -91,3 +96,49 @@ def signal_of(value: Input, stop: float, name: str) -> Signal:
     raise BadInput(
         f"input {name}: got {type(value).__name__}; give a number, pairs, a row of values, or a function", argument=name
     )
+
+
+def _curve(function: Callable[[float], float], stop: float) -> Signal:
+    """A curve through points of the function and its rate; where it misses the function between two, there is one more.
+
+    Raises:
+        ValueError: there would be too many.
+    """
+    time = np.linspace(0.0, stop, _POINTS)
+    value, rate = _at(function, time), _rate(function, time, stop)
+    uneven = np.random.default_rng(0)  # even times could all be zeros of the function
+    while True:
+        curve, size = Signal.through(time, value, rate), np.diff(time)
+        between = time[:-1] + uneven.uniform(0.3, 0.7, size.size) * size
+        seen = _at(function, between)
+        near = _NEAR * np.ptp(value) + 1e-12 * np.max(np.abs(value))  # and rounding
+        wrong = np.flatnonzero((np.abs(seen - curve.value(between)) > near) & (size > _NEAR * stop))
+        if not wrong.size:
+            return curve
+        if time.size > _MOST:
+            raise ValueError(f"the function changes too fast to be followed to {stop:g} s; give a row of its values")
+        rate = np.insert(rate, wrong + 1, _rate(function, between[wrong], stop))
+        time, value = np.insert(time, wrong + 1, between[wrong]), np.insert(value, wrong + 1, seen[wrong])
+
+
+def _lines(function: Callable[[float], float], points: Array) -> Signal:
+    """A line between two points, from where the function is behind the one to where it is ahead of the other."""
+    from pysim.cosim._signals import after, before
+
+    value, cubics = _at(function, np.append(after(points[:-1]), points[-1])), np.zeros((points.size, 4))
+    cubics[:, 0] = value
+    cubics[:-1, 1] = (_at(function, before(points[1:])) - value[:-1]) / np.diff(points)
+    return Signal(points, cubics, np.zeros((points.size, 0, 4)))
+
+
+def _at(function: Callable[[float], float], times: Array) -> Array:
+    found = np.array([function(time) for time in times.tolist()])
+    if found.dtype.kind not in "biuf" or found.size != times.size or not np.isfinite(found).all():
+        raise ValueError("the function returns what is no finite number; let it return one for each time in s")
+    return found.reshape(-1).astype(np.float64)
+
+
+def _rate(function: Callable[[float], float], times: Array, stop: float) -> Array:
+    beside = 0.1 * _NEAR * stop  # on either side
+    first, last = np.maximum(times - beside, 0.0), np.minimum(times + beside, stop)
+    return (_at(function, last) - _at(function, first)) / (last - first)

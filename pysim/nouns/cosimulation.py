@@ -12,7 +12,7 @@ from pysim.nouns.common import Input, signal_of
 from pysim.nouns.model import Model, model
 from pysim.nouns.run import Run
 from pysim.present.progress import Progress, showing
-from pysim.types import BadInput, Experiment, Note, NoteCode, ProgressEvent
+from pysim.types import BadInput, Experiment, Note, NoteCode, ProgressEvent, SimulationError
 from pysim.types import Model as Compiled
 from pysim.types.kinds import mapping_of, names_of, number_of
 
@@ -37,12 +37,15 @@ def cosimulate(
     """Run models and controllers together from 0 to `stop`.
 
     Args:
-        members: name -> an .fmu, a model, a block or member of `pysim.cosim`, or a plain object with `step(t, ...)`,
-            whose arguments after the time are its inputs. A controller is sampled every `dt`, or every `dt` of its own.
+        members: name -> an .fmu, a model, a block or member of `pysim.cosim`, or a controller: an object with
+            `step(t, ...)`, or a function f(t, ...), whose arguments after the time are its inputs. It is sampled every
+            `dt`, or every `dt` of its own. The run steps a copy of it, which `controllers` of the run has at the end.
         dt: s between two communication points.
-        stop: end of the run, s.
+        stop: end of the run, s, a whole number of `dt`.
         wires: "member.output" -> "member.input", or a row of them where it drives several.
         inputs: "member.input" -> number, pairs (s, value), a row of values, a pandas column, or a function of time.
+            A step jumps at a communication point. Between two points an input is a line, or its mean for an FMU that
+            takes none.
         record: "member.port"; all outputs and driven inputs by default.
         check: False gives back what a run that failed has reached, in place of an error.
         progress: see `pysim.present.progress.showing`.
@@ -50,10 +53,9 @@ def cosimulate(
         BadInput: an unknown name, units that differ, an input that nothing drives, or an algebraic loop.
         SimulationError: a member failed; `.record` is the part that was reached.
     """
-    from pysim.cosim import Connection, Sampled, System
-    from pysim.cosim import cosimulate as stepped
-    from pysim.cosim._prepare import check_heard, unheard
-    from pysim.cosim.plain import PlainBlock
+    from pysim.cosim import Connection, System
+    from pysim.cosim import Run as Stepped
+    from pysim.cosim._prepare import check_heard, tick_of, unheard
 
     dt, stop = number_of(dt, "dt"), number_of(stop, "stop")
     members, wires, record = mapping_of(members, "members"), mapping_of(wires, "wires"), names_of(record, "record")
@@ -63,15 +65,14 @@ def cosimulate(
             argument="stop",
         )
     pairs = [(a, one) for a, b in wires.items() for one in names_of(b, "wires")]
-    driven = {name: signal_of(value, stop, name) for name, value in mapping_of(inputs, "inputs").items()}
+    times = dt * np.arange(tick_of(stop, 0.0, dt, "cosimulate: stop =", least=1) + 1.0)
+    driven = {name: signal_of(value, stop, name, times) for name, value in mapping_of(inputs, "inputs").items()}
     targets = {*(target for _, target in pairs), *driven}
     parts = _parts(members, pairs, targets, dt)
-    plain = [one.block for one in parts if isinstance(one, Sampled) and isinstance(one.block, PlainBlock)]
     system = System(tuple(parts), tuple(Connection(*pair, *_conversion(parts, *pair)) for pair in pairs))
     idle = _idle(parts, targets)
     check_heard(system, record, idle)
     names = tuple(record) or (*system.outputs, *driven)
-    times = np.asarray(dt * np.arange(round(stop / dt) + 1), dtype=np.float64)
     every = -(-times.size // _SAID)
     with showing(progress, "co-simulation") as say:
 
@@ -80,17 +81,21 @@ def cosimulate(
                 say(ProgressEvent(f"at {time:.3g} of {stop:g} s"))
 
         experiment = Experiment(times, names, driven, rates=_rates(parts, driven))
+        run = Stepped(system, experiment, step=dt)
         try:
-            done = stepped(system, experiment, step=dt, check=check, progress=heard)
-        finally:
-            for block in plain:
-                block.end()
-    lost = [output for own in unheard(system, record).values() for output in own]
+            with run:
+                run.advance(progress=heard)
+                done = run.record()
+        except SimulationError as error:
+            if check:
+                raise
+            done = error.record
+    controllers = {name: getattr(block, "controller", block) for name, block in run.blocks.items()}
     notes: tuple[Note, ...] = ()
     if idle and (lost := [output for own in unheard(system, record).values() for output in own]):
         told = {"outputs": ", ".join(lost), "inputs": ", ".join(idle), "output": lost[0], "input": idle[0]}
         notes = (Note(NoteCode.NOT_WIRED, told),)
-    return Run(done, " + ".join(members), notes)
+    return Run(done, " + ".join(members), notes, controllers)
 
 
 def _idle(parts: Sequence[Part], targets: set[str]) -> list[str]:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -22,11 +23,13 @@ class Run(Shown):
         record: its columns, in their units.
         name: of the model.
         notes: what may not be as it was meant.
+        controllers: of a co-simulation, copies of the objects that were given, as the run left them.
     """
 
     record: Record
     name: str = ""
     notes: tuple[Note, ...] = ()
+    controllers: Mapping[str, Any] = field(default_factory=dict)
 
     @property
     def warnings(self) -> tuple[str, ...]:

@@ -1,3 +1,4 @@
+import copy
 import math
 from typing import Any
 
@@ -45,12 +46,12 @@ def test_it_is_active_above_a_half_as_its_twin_is() -> None:
     assert pi.step(0.0, (1.0, 0.0, 0.25, 0.51))[0] > 0.25
 
 
-def test_a_kept_state_goes_on_alike() -> None:
+def test_a_copy_goes_on_alike() -> None:
     errors = np.random.default_rng(2).standard_normal(100)
     whole = run(PI(1.0, 0.2, 0.01), errors)
-    first, second = PI(1.0, 0.2, 0.01), PI(1.0, 0.2, 0.01)
+    first = PI(1.0, 0.2, 0.01)
     run(first, errors[:40])
-    second.restore(first.state())
+    second = copy.deepcopy(first)
     assert run(second, errors[40:]).tolist() == whole[40:].tolist()
 
 

@@ -47,9 +47,3 @@ def test_normalize(angle: float, percent: float) -> None:
 def test_the_largest_angle_is_positive() -> None:
     with pytest.raises(BadInput, match="positive"):
         NormalizeSignal(0.0)
-
-
-def test_they_remember_nothing() -> None:
-    block = Gain(1.0)
-    assert block.state() == ()
-    block.restore(())

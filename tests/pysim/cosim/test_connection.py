@@ -5,7 +5,6 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from pysim.control import Stateless
 from pysim.cosim import Connection, Doubling, GaussSeidel, Order, Sampled, System, cosimulate
 from pysim.types import BadInput, Experiment, Port
 from tests.cosim_parts import Linear
@@ -103,7 +102,7 @@ def test_offsets_go_over_wires_in_every_order(order: Order | Doubling) -> None:
     np.testing.assert_allclose(record["wall.T"], 273.15 + 20 * np.exp(-times), rtol=1e-12)
 
 
-class Sum(Stateless):
+class Sum:
     inputs = (Port("T", "K"), Port("more", "K", 1.0))
     outputs = (Port("sum", "K"),)
 

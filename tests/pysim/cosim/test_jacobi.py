@@ -5,7 +5,6 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from pysim.control import Stateless
 from pysim.cosim import Connection, Jacobi, Sampled, System, cosimulate
 from pysim.types import Experiment, Port, Record
 from tests.cosim_parts import Linear
@@ -38,7 +37,7 @@ def test_lines_are_the_second_adams_bashforth_method() -> None:
     assert turning(lines=True).values == pytest.approx(np.array(rows), rel=1e-12)
 
 
-class Switch(Stateless):
+class Switch:
     """On from 0.3 s."""
 
     inputs, outputs = (), (Port("y"),)

@@ -5,7 +5,7 @@ import pytest
 
 from pysim.control import PI
 from pysim.cosim import Connection, Doubling, Order, Run, Sampled, System, cosimulate
-from pysim.types import Experiment, Signal
+from pysim.types import Experiment, Port, Signal
 from tests.cosim_parts import Linear, oscillation, oscillators
 from tests.pysim.cosim.order_cases import ORDERS
 
@@ -73,3 +73,31 @@ def test_save_and_restore_repeat_bit_for_bit(order: Order, doubling: Doubling | 
     assert np.array_equal(first.values, straight.values)
     assert first.statistics == again.statistics
     assert np.ptp(first["push.u"]) > 0.1
+
+
+@pytest.mark.parametrize("takes_rates", [False, True])
+@pytest.mark.parametrize("order", ORDERS[:3], ids=str)
+def test_a_signal_is_no_coupling_and_of_second_order_in_all(order: Order, takes_rates: bool) -> None:
+    """dx/dt = sin(3 t): x = (1 - cos(3 t)) / 3. Its recorded input is the signal at the time, not its mean."""
+    member = Linear("i", (Port("u"),), (Port("x"),), A=[[0]], B=[[1]], C=[[1]], takes_rates=takes_rates)
+    times = np.linspace(0, END, 21)
+    wave = Signal(np.zeros(1), np.zeros((1, 4)), np.array([[[1.0, 0.0, 3.0, 0.0]]]))
+    experiment = Experiment(times, ("i.x", "i.u"), {"i.u": wave})
+    errors = []
+    for step in (0.1, 0.05):
+        record = cosimulate(System((member,)), experiment, step=step, order=order)
+        errors.append(np.abs(record["i.x"] - (1 - np.cos(3 * times)) / 3).max())
+        assert record["i.u"] == pytest.approx(np.sin(3 * times), abs=1e-12)
+    assert errors[0] < 0.01  # h^2/12 times 9 times the mean of the wave over half a period, and room
+    assert errors[0] / errors[1] == pytest.approx(4, rel=0.05)
+
+
+@pytest.mark.parametrize("takes_rates", [False, True])
+@pytest.mark.parametrize("order", ORDERS[:4], ids=str)
+def test_a_step_stays_a_step(order: Order, takes_rates: bool) -> None:
+    """It jumps at a communication point that rounding puts on either side, and between two: then at the next."""
+    member = Linear("i", (Port("u"),), (Port("x"),), A=[[0]], B=[[1]], C=[[1]], takes_rates=takes_rates)
+    times, steps = 0.1 * np.arange(11), Signal.steps([0.0, 0.3, 0.65, 0.9], [1.0, 3.0, -1.0, 0.0])
+    record = cosimulate(System((member,)), Experiment(times, ("i.x",), {"i.u": steps}), step=0.1, order=order)
+    known = np.cumsum([0, 1, 1, 1, 3, 3, 3, 3, -1, -1, 0]) * 0.1
+    assert record["i.x"] == pytest.approx(known, abs=1e-12)

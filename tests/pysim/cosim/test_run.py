@@ -259,17 +259,6 @@ def test_a_run_is_its_own() -> None:
         other.restore(kept)
 
 
-def test_a_block_is_in_one_run_at_a_time() -> None:
-    block, experiment = Gain(2.0), Experiment(TIMES, ("g.y",), {"g.u": Signal.constant(1.0)})
-    one, other = (System((Sampled("g", block, every),)) for every in (0.1, 0.2))
-    with Run(one, experiment, step=0.1):
-        with pytest.raises(BadInput, match="g is at work in another run; close that first, or make another block"):
-            cosimulate(other, experiment, step=0.1)
-        with pytest.raises(BadInput, match="g is at work"):
-            cosimulate(other, experiment, step=0.1)
-    assert cosimulate(other, experiment, step=0.1)["g.y"][-1] == 2.0
-
-
 def test_of_two_threads_one_gets_the_member(monkeypatch: pytest.MonkeyPatch) -> None:
     class Slow(set[int]):
         """Lets another thread in after every look."""

@@ -6,13 +6,13 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from pysim.control import PI, Gain, Stateless
+from pysim.control import PI, Gain
 from pysim.cosim import Connection, Run, Sampled, System, cosimulate
 from pysim.types import BadInput, Experiment, Outcome, Port, Signal, SimulationError
 from tests.cosim_parts import Linear
 
 
-class Clock(Stateless):
+class Clock:
     """Its own time, squared, and what it read."""
 
     inputs = (Port("u"),)
@@ -147,7 +147,7 @@ def test_a_block_that_goes_wrong_is_named(way: str, words: str) -> None:
     assert record.outcome is (Outcome.NOT_FINITE if way == "nan" else Outcome.MODEL_ERROR)
 
 
-class Constant(Stateless):
+class Constant:
     """Returns what it was given."""
 
     inputs, outputs = (), (Port("u"),)
@@ -190,58 +190,27 @@ def test_numbers_of_all_kinds_are_taken(value: object) -> None:
 
 
 class Adding:
-    """Adds up; `kept` are the attributes that its state has."""
+    """Adds up, in an array."""
 
     inputs, outputs = (), (Port("u"),)
 
-    def __init__(self, start: object, *kept: str) -> None:
-        self.total, self.gain, self.kept = start, 1.0, kept
-        self.log: list[float] = []
+    def __init__(self) -> None:
+        self.total, self.gain = np.zeros(1), 1.0
 
     def step(self, time: float, inputs: Sequence[float]) -> tuple[float]:
-        self.total = self.total + self.gain  # type: ignore[operator]
-        self.log.append(time)
-        return (float(self.total),)  # type: ignore[arg-type]
-
-    def state(self) -> tuple[float, ...]:
-        return tuple(getattr(self, name) for name in self.kept)
-
-    def restore(self, state: Sequence[float]) -> None:
-        for name, value in zip(self.kept, state, strict=True):
-            setattr(self, name, value)
+        self.total += self.gain
+        return (float(self.total[0]),)
 
 
-ADDED = Experiment(np.arange(4) * 0.1, ("c.u",))
-
-
-def test_a_state_is_made_of_numbers() -> None:
-    """An array would go on changing where it is kept."""
-    with pytest.raises(BadInput, match=r"c: its state holds array\(\[0\.\]\), which is no number; .* as tuple\(x\)"):
-        Sampled("c", Adding(np.zeros(1), "total"), 0.1)
-    block = Adding(0.0, "total")
-    with Run(System((Sampled("c", block, 0.1),)), ADDED, step=0.1) as run:
-        block.total = np.float64(1.0)
-        run.save()
-        block.total = np.ones(1)
-        with pytest.raises(BadInput, match=r"c: its state holds array\(\[1\.\]\)"):
-            run.save()
-
-
-def test_what_a_run_leaves_behind_beside_the_state_is_told() -> None:
-    block = Adding(0.0)
-    system = System((Sampled("c", block, 0.1),))
-    assert cosimulate(system, ADDED, step=0.1)["c.u"].tolist() == [1, 2, 3, 4]
-    for _ in range(2):
-        with pytest.raises(BadInput, match="c: the run before has changed its total, which restore does not bring"):
-            cosimulate(system, ADDED, step=0.1)
-    block.total = 0.0
-    assert cosimulate(system, ADDED, step=0.1)["c.u"].tolist() == [1, 2, 3, 4]
-
-
-def test_settings_may_be_changed_between_two_runs_and_logs_kept() -> None:
-    block = Adding(0.0, "total")
-    system = System((Sampled("c", block, 0.1),))
-    cosimulate(system, ADDED, step=0.1)
+def test_a_block_is_as_its_owner_left_it_when_a_run_begins() -> None:
+    """It remembers in an array, and is two members of one system."""
+    block, experiment = Adding(), Experiment(np.arange(4) * 0.1, ("c.u", "d.u"))
+    system = System((Sampled("c", block, 0.1), Sampled("d", block, 0.2)))
+    assert cosimulate(system, experiment, step=0.1).values.tolist() == [[1, 1], [2, 1], [3, 2], [4, 2]]
     block.gain = 2.0
-    assert cosimulate(system, ADDED, step=0.1)["c.u"].tolist() == [2, 4, 6, 8]
-    assert len(block.log) == 8
+    assert cosimulate(system, experiment, step=0.1)["c.u"].tolist() == [2, 4, 6, 8]
+    with Run(system, experiment, step=0.1) as run, Run(system, experiment, step=0.1) as beside:
+        run.advance()
+        beside.advance()
+        assert np.array_equal(run.record().values, beside.record().values)
+    assert block.total == 0.0

@@ -45,9 +45,6 @@ def test_wrong_members_are_refused() -> None:
         System("abc")  # type: ignore[arg-type]
     with pytest.raises(BadInput, match="is no Connection"):
         System(PARTS, (("a.x", "s.x_a"),))  # type: ignore[arg-type]
-    block = Gain(1.0)
-    with pytest.raises(BadInput, match="g and h share one block"):
-        System((Sampled("g", block, 0.1), Sampled("h", block, 0.1)))
     with pytest.raises(BadInput, match="outputs of c: 'y' is there twice"):
         System((Linear("c", (), (Port("y"), Port("y")), A=[[0]], B=np.zeros((1, 0)), C=[[1], [1]]),))
 

@@ -1,7 +1,10 @@
 """A controller that is a plain class: its ports, its units, its state, and the loop it closes."""
 
+import re
+import reprlib
 from collections import deque
 from dataclasses import dataclass
+from threading import Lock
 from typing import Any
 
 import numpy as np
@@ -9,10 +12,10 @@ import pytest
 
 import pysim
 import pysim.control
-from pysim.cosim import Sampled
+from pysim.cosim import Run, Sampled, System
 from pysim.cosim.plain import PlainBlock
 from pysim.nouns.model import Model
-from pysim.types import BadInput, SimulationError
+from pysim.types import BadInput, Experiment, Signal, SimulationError
 
 DT = 1e-2
 WIRES = {"mass.x": "pi.measured", "pi.u": "mass.F"}
@@ -44,67 +47,107 @@ def test_it_runs_as_the_block_with_ports_does(mass: Model) -> None:
     assert len(repr(plain)) < 2000
 
 
-def test_a_second_run_begins_where_the_first_did(mass: Model) -> None:
-    """What its owner sets between two runs stays set; the integral of the first run is gone, and can be read before."""
-    controller = PI(20.0, 0.5, DT)
-    first = closed(mass, controller)
-    assert controller.integral != 0.0
-    assert closed(mass, controller)["pi.u"] == pytest.approx(first["pi.u"], abs=0.0)
-    controller.K_p = 10.0
-    assert closed(mass, controller)["pi.u"] == pytest.approx(closed(mass, PI(10.0, 0.5, DT))["pi.u"], abs=0.0)
-    controller.integral = 0.3
-    begun = PI(10.0, 0.5, DT)
-    begun.integral = 0.3
-    assert closed(mass, controller)["pi.u"] == pytest.approx(closed(mass, begun)["pi.u"], abs=0.0)
+class Remembering:
+    """Remembers in a dictionary, in what was nothing at first, in a row that grows, and by a `restore` that lies."""
+
+    count = 0
+
+    def __init__(self) -> None:
+        self.held, self.last, self.log = {"sum": [0.0]}, None, list[float]()
+
+    def restore(self, state: object) -> None:
+        """Bring nothing back."""
+
+    def step(self, t: float, reference: float, measured: float) -> float:
+        self.held["sum"][0] += reference - measured
+        self.last = measured if self.last is None else 0.5 * (self.last + measured)
+        self.count += 1
+        self.log.append(t)
+        return self.held["sum"][0] - self.last + self.count  # type: ignore[no-any-return]
 
 
-def test_units_come_from_the_wires() -> None:
-    block = PlainBlock("pi", PI(1.0, 1.0, DT), ["u"], {"measured": "m", "u": "N"})
-    assert [(p.name, p.unit, p.start) for p in block.inputs] == [("reference", "1", None), ("measured", "m", None)]
-    assert [(p.name, p.unit) for p in block.outputs] == [("u", "N")]
+def test_a_run_leaves_the_controller_as_it_is_and_gives_what_it_made_of_it(mass: Model) -> None:
+    controller = Remembering()
+    first, second = closed(mass, controller), closed(mass, controller)
+    assert np.array_equal(first["pi.u"], second["pi.u"])
+    assert (controller.held, controller.last, controller.count) == ({"sum": [0.0]}, None, 0)
+    assert first.controllers["pi"].count == first.time.size
+    assert first.controllers["pi"].log == pytest.approx(first.time)
+    controller.held["sum"][0] = 0.3
+    begun = Remembering()
+    begun.held["sum"][0] = 0.3
+    assert np.array_equal(closed(mass, controller)["pi.u"], closed(mass, begun)["pi.u"])
+
+
+def test_one_object_as_two_members_is_two_controllers(mass: Model) -> None:
+    """Both see the same, so that both do the same."""
+    one = PI(20.0, 0.5, DT)
+    members = {"a": mass, "b": mass, "p": one, "q": one}
+    wires = {"a.x": "p.measured", "p.u": "a.F", "b.x": "q.measured", "q.u": "b.F"}
+    inputs = {"p.reference": 0.1, "q.reference": 0.1}
+    run = pysim.cosimulate(members, dt=DT, stop=1.0, wires=wires, inputs=inputs)
+    assert np.array_equal(run["p.u"], run["q.u"])
+    assert np.ptp(run["p.u"]) > 0.1
+
+
+def test_a_controller_that_cannot_be_copied_is_refused(mass: Model) -> None:
+    controller = PI(1.0, 1.0, DT)
+    controller.lock = Lock()  # type: ignore[attr-defined]
+    with pytest.raises(BadInput, match=r"pi: it cannot be copied.*lock.*open files and connections in step"):
+        closed(mass, controller)
+
+
+def test_units_come_from_the_wires_and_an_output_has_its_own(mass: Model) -> None:
+    """The angle comes in rad and goes out in deg, by one name; two members take it."""
+
+    class Turn:
+        def step(self, t: float, angle: float) -> dict[str, float]:
+            return {"angle": np.degrees(angle)}
+
+    angles = Sampled("plant", pysim.control.Gain(1.0, unit="rad", output_unit="rad"), DT)
+    drives = [Sampled(n, pysim.control.Gain(1.0, unit="deg", output_unit="deg"), DT) for n in ("drive", "other")]
+    run = pysim.cosimulate(
+        {"plant": angles, "turn": Turn(), "drive": drives[0], "other": drives[1]},
+        dt=DT,
+        stop=DT,
+        wires={"plant.y": "turn.angle", "turn.angle": ["drive.u", "other.u"]},
+        inputs={"plant.u": np.pi},
+        record=["turn.angle", "drive.y", "other.y"],
+    )
+    assert run.record.units == ("deg", "deg", "deg")
+    assert run.record.values[-1] == pytest.approx(180.0)
 
 
 class Delay:
-    """Rows, whole numbers, a switch, a log, and a name."""
+    """Rows, whole numbers, a switch and a log."""
 
     def __init__(self) -> None:
         self.line = deque([0.0, 0.0], maxlen=2)
-        self.matrix = np.zeros((2, 2))
-        self.count, self.on, self.log, self.name = 0, False, list[float](), "delay"
+        self.count, self.on, self.log = 0, False, list[float]()
 
     def step(self, t: float, x: float, gain: float = 2.0) -> dict[str, float]:
         y = self.line[0]
         self.line.append(x)
-        self.matrix[0, 1] += x
         self.count, self.on = self.count + 1, not self.on
         self.log.append(t)
-        return {"y": gain * y, "n": self.count}
+        return {"y": gain * y, "n": self.count + 10.0 * self.on}
 
 
-def test_its_state_is_kept_and_brought_back_as_what_it_was() -> None:
-    one = Delay()
-    block = PlainBlock("delay", one, ["n", "y"], {})
-    begin = block.state()
-    outputs = [block.step(0.1 * k, (float(k + 1), 2.0)) for k in range(4)]
-    assert outputs == [(1.0, 0.0), (2.0, 0.0), (3.0, 2.0), (4.0, 4.0)]
-    block.restore(begin)
-    assert (one.count, one.on, list(one.line), one.line.maxlen) == (0, False, [0.0, 0.0], 2)
-    assert isinstance(one.count, int)
-    assert isinstance(one.on, bool)
-    assert one.matrix.shape == (2, 2)
-    assert not one.matrix.any()
-    assert [block.step(0.1 * k, (float(k + 1), 2.0)) for k in range(4)] == outputs
-    assert len(one.log) == 8  # a log is no state
+def test_a_run_that_goes_back_brings_all_of_it_back() -> None:
+    """Its outputs are those of two samples ago, twice, and how many there were, with 10 at every other."""
+    block = PlainBlock("delay", Delay(), {}, {"n": "1", "y": "1"})
+    system = System((Sampled("delay", block, 0.1),))
+    ramp, times = Signal.lines([0, 1], [1.0, 11.0]), 0.1 * np.arange(11)
+    known = np.column_stack([np.arange(1, 12) + 10 * (np.arange(11) % 2 == 0), np.append([0, 0], 2 * np.arange(1, 10))])
+    with Run(system, Experiment(times, ("delay.n", "delay.y"), {"delay.x": ramp}), step=0.1) as run:
+        run.advance(0.3)
+        kept = run.save()
+        for _ in range(2):
+            run.advance()
+            assert run.record().values == pytest.approx(known)
+            assert run.blocks["delay"].controller.log == pytest.approx(times)  # type: ignore[attr-defined]
+            run.restore(kept)
     assert block.inputs[1].start == 2.0
-
-
-class Growing:
-    def __init__(self) -> None:
-        self.row = [0.0]
-
-    def step(self, t: float, x: float) -> float:
-        self.row.append(x)
-        return x
 
 
 @dataclass(slots=True)
@@ -120,7 +163,9 @@ class Slotted:
     [
         ({"pi": 3.0}, {}, "no step"),
         ({"pi": type("All", (), {"step": lambda self, t, *rest: 0.0})()}, {}, "name each input"),
-        ({"pi": Slotted(2.0)}, {}, "without them"),
+        ({"pi": PI}, {}, r"pi: PI is a class; give an object of it, PI\(...\)"),
+        ({"pi": lambda: 0.0}, {}, "takes no time"),
+        ({"pi": PI(1.0, 1.0, DT)}, {"dt": 0.03}, "no whole number of steps of 0.03 s"),
         ({"pi": PI(1.0, 1.0, DT)}, {"wires": {"mass.y": "pi.measured", "pi.u": "mass.F"}}, "mass.y"),
         ({"pi": PI(1.0, 1.0, DT)}, {"inputs": {}}, "reference"),
         ({"pi": PI(1.0, 1.0, 0.3 * DT)}, {}, "whole number"),
@@ -134,12 +179,62 @@ def test_mistakes_are_refused_with_a_cure(mass: Model, members: dict, more: dict
         pysim.cosimulate({"mass": mass, **members}, **{"dt": DT, "stop": 1.0, "wires": WIRES, "inputs": STEP, **more})
 
 
-def test_a_row_that_grows_is_no_state() -> None:
-    one = Growing()
-    block = PlainBlock("row", one, ["y"], {})
-    block.step(0.0, (1.0,))
-    with pytest.raises(BadInput, match="a row of 1 and is a row of 2"):
-        block.state()
+@pytest.mark.parametrize(
+    "controller",
+    [
+        lambda t, reference, measured: 2.0 * (reference - measured),
+        lambda t, reference, measured: np.array(2.0 * (reference - measured)),
+        lambda t, reference, measured: np.array([[2.0 * (reference - measured)]]),
+        lambda t, reference, measured: [2.0 * (reference - measured)],
+        Slotted(2.0),
+    ],
+)
+def test_a_function_is_a_controller_and_an_array_of_one_is_a_number(mass: Model, controller: Any) -> None:
+    """m x'' + d x' + (k + 2) x = 2 r, where the force is held: it comes to rest at 2 r / (k + 2)."""
+    run = closed(mass, controller, stop=8.0)
+    assert run["mass.x"][-1] == pytest.approx(2.0 * 0.2 / (20.0 + 2.0), rel=1e-3)
+
+
+@pytest.mark.parametrize("given", [None, "5", (1.0, 2.0), [None], {"v": 1.0}, "five"])
+def test_what_is_no_number_is_refused_with_its_cure(mass: Model, given: object) -> None:
+    cure = "end it with return and a number, u"
+    with pytest.raises(pysim.SimulationError, match=re.escape(f"{reprlib.repr(given)}; {cure}")) as caught:
+        closed(mass, lambda t, reference, measured: given)
+    assert caught.value.record.time.size == 0
+
+
+def test_several_outputs_have_their_names_from_the_controller(mass: Model) -> None:
+    """Those of a row are the order of its own `outputs`; the order of wires says nothing."""
+
+    def row(t: float, measured: float) -> tuple[float, float]:
+        return 1.0, -2.0
+
+    members = {"mass": mass, "other": mass, "two": row}
+    wires = {"mass.x": "two.measured", "two.v": "other.F", "two.u": "mass.F"}
+    with pytest.raises(SimulationError, match="return and a dictionary of numbers, v, u"):
+        pysim.cosimulate(members, dt=DT, stop=0.1, wires=wires)
+    row.outputs = ["u", "v"]  # type: ignore[attr-defined]
+    run = pysim.cosimulate(members, dt=DT, stop=0.1, wires=wires)
+    assert (run["two.u"][-1], run["two.v"][-1]) == (1.0, -2.0)
+
+
+def test_a_fast_function_drives_a_long_run(mass: Model) -> None:
+    """It was looked at 2001 times, which of this one saw zeros alone."""
+    run = pysim.cosimulate(
+        {"a": mass}, dt=0.02, stop=600.0, wires={}, inputs={"a.F": lambda t: np.sin(10 * np.pi * t)}, record=["a.F"]
+    )
+    assert run["a.F"] == pytest.approx(np.sin(10 * np.pi * run.time), abs=1e-9)
+
+
+def test_a_function_that_jumps_is_a_step(mass: Model) -> None:
+    """The same as pairs, also at 0.29 s, which is 29*0.01 but for its last digit."""
+    pairs = [(0.0, 0.0), (0.1, 1.0), (0.29, -2.0)]
+    runs = [
+        pysim.cosimulate({"a": mass}, dt=DT, stop=1.0, wires={}, inputs={"a.F": one})
+        for one in (pairs, lambda t: 0.0 if t < 0.1 else 1.0 if t < 0.29 else -2.0)
+    ]
+    assert runs[0]["a.x"] == pytest.approx(runs[1]["a.x"], abs=1e-12)
+    assert np.ptp(runs[0]["a.x"]) > 0.01
 
 
 def test_a_controller_that_fails_says_when(mass: Model) -> None:

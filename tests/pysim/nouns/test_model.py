@@ -1,6 +1,7 @@
 """A model: what it holds, what is said of it, and how it runs."""
 
 import math
+import random
 from pathlib import Path
 
 import numpy as np
@@ -253,3 +254,28 @@ def test_a_run_prints_draws_and_is_saved(mass: Model, tmp_path: Path) -> None:
         run.save(tmp_path / "bench.csv")
     assert (tmp_path / "bench.csv").read_text() == "t,x\n0,1\n"
     assert math.isclose(run.time[-1], 1.0)
+
+
+def test_a_function_is_followed_however_long_the_run(mass: Model) -> None:
+    """2001 even times see zeros alone in the wave, and a jump late by up to the time between two of them."""
+    wave = mass.simulate(20.0, dt=0.007, record=["F"], F=lambda t: np.sin(100 * np.pi * t))
+    assert wave["F"] == pytest.approx(np.sin(100 * np.pi * wave.time), abs=1e-5)
+    jumping = mass.simulate(600.0, dt=0.1, F=lambda t: 1.0 if t < 1.05 else -2.0)
+    pairs = mass.simulate(600.0, dt=0.1, F=[(0.0, 1.0), (1.05, -2.0)])
+    assert jumping["x"] == pytest.approx(pairs["x"], abs=1e-3 * np.ptp(pairs["x"]))
+
+
+def test_a_function_without_an_end_to_its_changes_is_refused(mass: Model) -> None:
+    noise = random.Random(0).random
+    with pytest.raises(BadInput, match=r"^input F: the function changes too fast"):
+        mass.simulate(1.0, F=lambda t: noise())
+
+
+@pytest.mark.parametrize("given", [None, "5", math.nan, [1.0, 2.0]])
+def test_a_function_returns_numbers(mass: Model, given: object) -> None:
+    array = mass.simulate(1.0, F=lambda t: np.array([t]))
+    assert np.array_equal(array["x"], mass.simulate(1.0, F=lambda t: t)["x"])
+    with pytest.raises(BadInput, match=r"^input F: .* no finite number; let it return one"):
+        mass.simulate(1.0, F=lambda t: given)
+    with pytest.raises(BadInput, match=r"^input a\.F: .* no finite number; let it return one"):
+        pysim.cosimulate({"a": mass}, dt=0.1, stop=1.0, wires={}, inputs={"a.F": lambda t: given})

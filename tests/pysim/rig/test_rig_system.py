@@ -3,7 +3,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from pysim.control import CompensatedLoadController, Stateless
+from pysim.control import CompensatedLoadController
 from pysim.cosim import Connection, cosimulate
 from pysim.cosim.members import Fmu
 from pysim.rig import HeaveTest, StepTest, rig_member, rig_system
@@ -56,7 +56,7 @@ def test_other_controllers_and_another_feed_forward() -> None:
     assert np.flatnonzero(late["load.u_ref"])[0] - first == pytest.approx(2.5, abs=0.6)  # rows of 2 ms
 
 
-class OwnLoadController(Stateless):
+class OwnLoadController:
     """A feed forward that knows the pressure drop; nothing of the thesis' classes."""
 
     inputs = (Port("reference", "Pa"), Port("measured", "Pa"), Port("speed", "rad/s"), Port("supply", "Pa"))
