@@ -173,9 +173,13 @@ def test_outliers_go_and_steps_stay() -> None:
     spoilt = noisy.copy()
     wrong = [3, 500, 501, 1500, 1994]
     spoilt[wrong] += [2.0, -1.5, -1.4, 0.5, -2.0]
-    _, y = y_of(DropOutliers().apply(dataset(TIME, spoilt)))
-    assert set(np.flatnonzero(y != spoilt)) == set(wrong)
-    np.testing.assert_allclose(y, clean, atol=0.1)
+    data = dataset(TIME, spoilt, spoilt)
+    log = DropOutliers(signals=("u", "y")).apply(data).records[0].data
+    assert isinstance(log, Record)
+    for name in ("u", "y"):
+        assert set(np.flatnonzero(log[name] != spoilt)) == set(wrong)
+    assert np.isnan(log["y"][wrong]).all()
+    np.testing.assert_allclose(log["u"], clean, atol=0.1)
 
 
 @pytest.mark.parametrize("hz", [10.0, 40.0, 100.0])
