@@ -188,6 +188,15 @@ def test_a_clean_sine_has_no_outliers(hz: float) -> None:
     np.testing.assert_array_equal(y_of(DropOutliers(5.0).apply(data))[1], y_of(data)[1])
 
 
+def test_a_low_pass_of_one_signal_needs_the_samples_of_that_alone() -> None:
+    lacking = np.where(TIME == 0.5, np.nan, sine(TIME, 10.0))
+    found = LowPass(50.0, ("u",)).apply(dataset(TIME, sine(TIME, 10.0), lacking)).records[0].data
+    assert isinstance(found, Record)
+    np.testing.assert_array_equal(found["y"], lacking)
+    with pytest.raises(BadInput, match="y lacks 1 sample"):
+        LowPass(50.0).apply(dataset(TIME, sine(TIME, 10.0), lacking))
+
+
 def test_short_gaps_of_inputs_are_filled_and_long_ones_cut() -> None:
     u = 2 * TIME
     u[[100, 101]] = np.nan
