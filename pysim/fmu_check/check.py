@@ -133,9 +133,10 @@ def _lines(worker: subprocess.Popen[str], patience: float) -> Iterator[str]:
         said.put(None)
 
     threading.Thread(target=listen, daemon=True).start()
+    wait: float | None = None  # however long a worker takes to start on a busy PC; the FMU is not called yet
     while True:
         try:
-            line = said.get(timeout=patience)
+            line, wait = said.get(timeout=wait), patience
         except queue.Empty:
             return
         if line is None:

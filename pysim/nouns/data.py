@@ -42,6 +42,7 @@ from pysim.nouns.model import Model
 from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
 from pysim.types.kinds import mapping_of, names_of, number_of, path_of
+from pysim.types.record_kind import Command
 
 
 @dataclass(frozen=True, repr=False)
@@ -99,7 +100,7 @@ class Data(Shown):
         if len(found) > 1:
             parts = ", ".join(short_name(self.now, record) for record in found)
             raise BadInput(f"{name!r} is several logs; name one of {parts}")
-        return found[0]
+        return replace(found[0], holds=self._holds("name"))
 
     def __len__(self) -> int:
         return len(self.now.records)
@@ -137,7 +138,7 @@ class Data(Shown):
         return self.after(FillGaps(number_of(longest, "longest"), names_of(signals, "signals"), shortest))
 
     def drop_outliers(self, sigmas: float = 8.0, *signals: str) -> Data:
-        """Put straight lines in place of samples that are so many standard deviations off their neighbours."""
+        """Take out samples that are so many standard deviations off their neighbours; inputs get straight lines."""
         return self.after(DropOutliers(number_of(sigmas, "sigmas"), names_of(signals, "signals")))
 
     def resample(self, hz: float) -> Data:
@@ -200,7 +201,8 @@ class Data(Shown):
 
         Args:
             model: what answers to the inputs: a model with `.simulate(log)`, the run of the only log, or runs by the
-                names of logs. With it, signs, units and columns are looked at too; of a `pysim.model` also whether it
+                names of logs. A log that it is given lacks no sample of an input; an output is NaN where it was not
+                measured. With a model, signs, units and columns are looked at too; of a `pysim.model` also whether it
                 has what is measured, and whether its inputs are driven.
         """
         return Check(with_one_cause(*self._checked(model), lambda step: self.after(step)._checked(model)))
@@ -235,7 +237,12 @@ class Data(Shown):
         """A log as a model can be driven by it: its whole rows, its columns called as the model calls them."""
         assert isinstance(record.data, Record)
         names = tuple(self.now.signal(name).variable for name in record.data.names)
-        return replace(record, data=replace(record.data.whole_rows(self.now.columns(record, "input")), names=names))
+        data = replace(record.data.whole_rows(self.now.columns(record, "input")), names=names)
+        return replace(record, data=data, holds=self._holds("variable"))
+
+    def _holds(self, called: str) -> dict[str, Command]:
+        """Input -> how it runs between samples, where the data set says it."""
+        return {getattr(one, called): one.hold for one in self.now.signals if one.hold is not None}
 
     def plot(self, *, interactive: bool = False) -> Any:
         """Signals over time, a row per log and a column per unit; at most eight logs.

@@ -17,7 +17,7 @@ from pysim.nouns.table import Shown, Table
 from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent
 from pysim.types import Fit as Found
-from pysim.types.kinds import names_of, number_of, path_of
+from pysim.types.kinds import names_of, path_of, whole_number_of
 
 if TYPE_CHECKING:
     from pysim.identify.greybox import Problem, Profile, Tried
@@ -67,7 +67,7 @@ def fit(
         def heard(tried: Tried) -> None:
             say(ProgressEvent(f"{tried.search}: point {tried.tried}, cost {tried.best:.6g}"))
 
-        effort = Effort(int(number_of(starts, "starts")), seed, log=log, resume=log is not None)
+        effort = Effort(whole_number_of(starts, "starts"), seed, log=log, resume=log is not None)
         return Fit(fitted(problem, effort=effort, progress=heard), model, dataset, problem, initial, outputs)
 
 
@@ -282,8 +282,20 @@ class Fit(Shown):
 
         place = path_of(folder, "folder")
         with joining(place) as new:
-            files = write_report(new, self._whole())
+            files = write_report(new, self._whole(), redo=self._again(place))
         return {name: place / path.name for name, path in files.items()}
+
+    def _again(self, folder: Path) -> str:
+        """The lines that make the report again; none where starts were drawn, whose seed is not kept."""
+        if {one.name for one in self.found.starts} not in ({"given"}, {"given", "nominal"}):
+            return ""
+        initial = dict(self.initial) if isinstance(self.initial, Mapping) else self.initial
+        asked = {"initial": initial, "outputs": list(self.outputs)}
+        words = ", ".join(["model", "data", *(f"{name}={value!r}" for name, value in asked.items() if value)])
+        return (
+            f"# model is {self.begun.name} with the starts, bounds and values above; data is {self.dataset.name}\n"
+            f"fitted = pysim.fit({words})\nfitted.report({str(folder)!r})"
+        )
 
     def _whole(self) -> Any:
         from pysim.present.fit import Fitted

@@ -43,8 +43,9 @@ _WORDS = {
         "depends on one alone."
     ),
     NoteCode.NOT_AT_REST: (
-        'The beginning of {record} does not fit a plant at rest. If the plant moved there, write initial = "estimate". '
-        "If it stood still, look at the first samples, and leave them out where they are wrong (trim)."
+        "The beginning of {record} does not fit a plant at rest. If the plant moved there, let this log begin where it "
+        'stands still: data = data.trim(start=..., logs="{record}"), or write initial = "estimate" at this log in '
+        "dataset.toml. If it stood still, look at the first samples, and leave them out where they are wrong."
     ),
     NoteCode.USED_TO_CHOOSE: (
         "{records}: these logs chose between models, so their error is optimistic. Hold a log out to have one that "

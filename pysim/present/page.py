@@ -48,7 +48,7 @@ def page(title: str, lead: str, parts: Iterable[str], redo: str = "") -> str:
     Args:
         title, lead: plain text.
         parts: HTML made by the other functions of this module.
-        redo: the command line that makes it again, for the end; "" for none.
+        redo: the lines that make it again, for the end; "" for none.
     """
     body = "\n".join([*parts, *([heading("Do it again"), commands(redo)] if redo else [])])
     return (

@@ -58,7 +58,7 @@ class View(Protocol):
         ...
 
     def page(self, result: Any, drawings: Sequence[Drawing], redo: str) -> str:
-        """A self-contained HTML page; `redo` is the command line that makes it again."""
+        """A self-contained HTML page; `redo` are the lines that make it again."""
         ...
 
 
@@ -93,7 +93,7 @@ def write_report(folder: Path, result: object, *, redo: str = "") -> dict[str, P
 
     Args:
         folder: that is there.
-        redo: the command line that makes it again; "" where there is none.
+        redo: the lines that make it again; "" where there are none.
     Returns:
         name without suffix -> path: "report", each picture (PNG), each file.
     """

@@ -8,12 +8,12 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from pysim.control.tuning import Gains, loop_response
+from pysim.control.tuning import Gains, loop_response, stable_when_sampled
 from pysim.control.tuning.margins import open_loop
 from pysim.present.page import heading, items, pictures, table
 from pysim.present.page import page as whole_page
@@ -36,7 +36,8 @@ _MOST = 50_000  # steps of the sampled controller there, some seconds of work
 _PICTURE = 4.0  # steps of the reference; an answer that grows beyond is cut off
 _METHOD = (
     "The controller is K_p (1 + 1/(T_i s)), thesis Eq. 5.32. Phase margin and crossover fix both of its numbers.",
-    "Margins count the plant's dead time, if it was given one; the steps over time are the sampled controller's. A "
+    "Margins are those of a controller that is not sampled, and count the plant's dead time, if it was given one. "
+    "A loop is called stable only if it is so under the sampled controller too. The steps over time are its own. A "
     f"loop that needs more than {_MOST:,} of its samples is drawn with a longer sampling time.",
     "The maximum of sensitivity tells how much the loop amplifies a disturbance at the worst frequency; 1.5 to 2 is "
     "usual.",
@@ -51,24 +52,50 @@ class Tuning:
 
     Args:
         loops: label -> gains; at least one.
-        dt: s between the sampled controller's steps, for the answers over time.
+        dt: s between the sampled controller's steps.
+        beside: labels of the loops that are shown for comparison only.
     """
 
     loops: Mapping[str, Gains]
     dt: float
+    beside: frozenset[str] = frozenset()
+
+    @cached_property
+    def stable(self) -> Mapping[str, bool]:
+        """Label -> whether the loop is stable, under the sampled controller too."""
+        return {
+            label: g.loop.stable and stable_when_sampled(g.plant, g.K_p, g.T_i, dt=self.dt)
+            for label, g in self.loops.items()
+        }
+
+    @property
+    def passes(self) -> bool:
+        """Whether all loops that were asked for are stable."""
+        return all(stable for label, stable in self.stable.items() if label not in self.beside)
+
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """A sentence for each loop that was asked for and is not stable."""
+        unsampled = f"with a controller that is sampled every {self.dt:g} s; take a shorter sampling time (dt), or"
+        return tuple(
+            f"The loop {label} is unstable{f' {unsampled}' if self.loops[label].loop.stable else '; take'} other gains."
+            for label, stable in self.stable.items()
+            if not stable and label not in self.beside
+        )
 
 
 def text(result: Tuning) -> str:
-    """A row per loop: gains, crossover, phase, gain and delay margin, largest sensitivity."""
+    """A row per loop: gains, crossover, phase, gain and delay margin, largest sensitivity; what is not stable."""
     width = max(map(len, result.loops))
     rows = [[" " * width, *_SHORT], *([f"{label:<{width}}", *_cells(gains)] for label, gains in result.loops.items())]
-    ends = ["stable", *("yes" if gains.loop.stable else "NO" for gains in result.loops.values())]
-    return "\n".join(f"{line}  {end}" for line, end in zip(aligned(rows), ends, strict=True))
+    ends = ["stable", *("yes" if stable else "NO" for stable in result.stable.values())]
+    table_rows = [f"{line}  {end}" for line, end in zip(aligned(rows), ends, strict=True)]
+    return "\n".join([*table_rows, *result.warnings])
 
 
 def data(result: Tuning) -> dict[str, Any]:
     """Everything, frequencies in Hz, margins in degrees and dB; null where there is none."""
-    return json_data({label: _data(gains) for label, gains in result.loops.items()})
+    return json_data({label: _data(gains, result.stable[label]) for label, gains in result.loops.items()})
 
 
 def figures(result: Tuning) -> Iterator[Picture]:
@@ -80,8 +107,9 @@ def figures(result: Tuning) -> Iterator[Picture]:
 def page(result: Tuning, drawings: Sequence[Drawing], redo: str) -> str:
     """How it was done, the picture, gains and margins."""
     first = next(iter(result.loops.values()))
-    rows = [[label, *_cells(g), "yes" if g.loop.stable else "no"] for label, g in result.loops.items()]
+    rows = [[label, *_cells(g), "yes" if result.stable[label] else "no"] for label, g in result.loops.items()]
     parts = [heading("How it was done"), items(_METHOD), heading("Loops"), *pictures(drawings)]
+    parts += [items(result.warnings)] if result.warnings else []
     parts.append(table("Gains and margins", ["", *_HEAD, "stable"], rows, words=[0]))
     return whole_page("Tuning of a PI controller", f"Plant: {first.plant.name}.", parts, redo)
 
@@ -101,7 +129,7 @@ def _cells(gains: Gains) -> list[str]:
     ]
 
 
-def _data(gains: Gains) -> dict[str, Any]:
+def _data(gains: Gains, stable: bool) -> dict[str, Any]:
     loop = gains.loop
     return {
         "plant": gains.plant.name,
@@ -113,7 +141,8 @@ def _data(gains: Gains) -> dict[str, Any]:
         "delay_margin_s": loop.delay_margin,
         "peak_sensitivity": loop.peak_sensitivity,
         "bandwidth_hz": loop.bandwidth / (2 * math.pi),
-        "stable": loop.stable,
+        "stable": stable,
+        "stable_unsampled": loop.stable,
     }
 
 

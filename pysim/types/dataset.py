@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from pysim.types.errors import BadInput
 from pysim.types.frequency_response import FrequencyResponse
@@ -65,6 +66,7 @@ class MeasuredRecord:
             "model": the model's start values hold. "estimate": nothing. None: near rest, as far as the data agree.
         begin: s, of a log's first row on a clock that all records share, so that slow drift can be seen: then the
             model's `time` is this clock. None where not known.
+        holds: column -> how it runs between samples, of a log that is handed on without its data set.
     """
 
     source: str
@@ -77,6 +79,7 @@ class MeasuredRecord:
     command: str = ""
     initial: str | None = None
     begin: float | None = None
+    holds: Mapping[str, Command] = field(default_factory=dict)
 
     @property
     def held_out(self) -> bool:

@@ -19,6 +19,14 @@ def number_of(given: Any, argument: str) -> float:
     raise BadInput(f"{argument}: {_shown(given)} is no number; write one, such as {argument}=0.5", argument=argument)
 
 
+def whole_number_of(given: Any, argument: str) -> int:
+    """A number without a fraction."""
+    number = number_of(given, argument)
+    if number.is_integer():
+        return int(number)
+    raise BadInput(f"{argument}: {number:g} is no whole number; write one, such as {argument}=3", argument=argument)
+
+
 def names_of(given: Any, argument: str) -> tuple[str, ...]:
     """One name, several, or several of which some stand in lists."""
     if isinstance(given, str):

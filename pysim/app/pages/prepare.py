@@ -29,7 +29,7 @@ _KINDS: Mapping[str, tuple[str, str, str]] = {
     "low pass": ("lowpass", "hz", "Hz"),
     "resample": ("resample", "hz", "samples a second"),
     "fill gaps": ("fill_gaps", "longest", "s at most"),
-    "replace outliers": ("drop_outliers", "sigmas", "standard deviations"),
+    "take out outliers": ("drop_outliers", "sigmas", "standard deviations"),
     "take off the mean": ("detrend", "", ""),
 }
 _ONE = ("scale", "delay")  # steps that name one signal; below, those that name any

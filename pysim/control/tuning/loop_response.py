@@ -45,13 +45,13 @@ def loop_response(
     """Plant, exactly discretised, under the difference equation of the PI controller.
 
     A plant that answers at once, in part or whole, is looked at just before its input changes, as a card reads before
-    it writes.
+    it writes. Its dead time counts in full, also where it ends within a step.
 
     Args:
         dt: s between the controller's steps.
         stop: s; a loop that has gone off to beyond 1e100 ends there.
         reference, disturbance: steps at time 0, the latter added to the command, and so ahead of the dead time.
-        parts: of dt, at whose ends the plant is looked at, and to which its dead time is rounded.
+        parts: of dt, at whose ends the plant is looked at.
     Raises:
         BadInput: times or parts that are not positive.
     Source: thesis Eq. 5.33.
@@ -61,28 +61,45 @@ def loop_response(
     if parts < 1:
         raise BadInput(f"loop response: {parts} parts of a step of {dt:g} s; give 1 or more")
     fine = dt / parts
-    A, B, C, D = _sampled(plant, fine)
+    held = sampled(plant, fine)
     controller = PI(K_p, T_i, dt)
     # the error before the step is zero, so that the step itself passes the gain as well
     controller.step(0.0, (0.0, 0.0, 0.0, 1.0))
-    count, lag = round(stop / dt) * parts + 1, round(plant.delay / fine)
-    x, output, command, u = np.zeros(A.shape[0]), np.zeros(count), np.zeros(count + lag), 0.0
+    count, lag = round(stop / dt) * parts + 1, held.lag
+    x, output, command, u = np.zeros(held.A.shape[0]), np.zeros(count), np.zeros(count + lag), 0.0
     driven = 0.0
     for k in range(count):
-        output[k] = C @ x + D * driven
+        output[k] = held.C @ x + held.D * driven
         if not abs(output[k]) < _OFF:
             count = k
             break
         if k % parts == 0:
             (u,) = controller.step(k * fine, (reference, output[k], 0.0, 1.0))
         command[k + lag] = u
-        driven = command[k] + disturbance * (k >= lag)
-        x = A @ x + B * driven
+        before, driven = driven, command[k] + disturbance * (k >= lag)
+        x = held.A @ x + held.late * before + held.B * driven
     return LoopResponse(np.arange(count, dtype=np.float64) * fine, output[:count], command[lag : lag + count])
 
 
-def _sampled(plant: Plant, dt: float) -> tuple[Array, Array, Array, float]:
-    """x(k+1) = A x(k) + B u(k), y = C x + D u of the rational part, its input held; in a time scaled to its poles."""
+@dataclass(frozen=True)
+class Sampled:
+    """x(k+1) = A x(k) + late u(k-lag-1) + B u(k-lag), y(k) = C x(k) + D u(k-lag-1): a plant whose input is held.
+
+    Args:
+        A, late, B, C, D: (n, n), (n,), (n,), (n,), scalar.
+        lag: whole steps of the dead time; within the next one the input changes.
+    """
+
+    A: Array
+    late: Array
+    B: Array
+    C: Array
+    D: float
+    lag: int
+
+
+def sampled(plant: Plant, dt: float) -> Sampled:
+    """A plant, exactly discretised, its states in a time scaled to its poles."""
     from scipy.linalg import expm  # 0.2 s to import
 
     order = len(plant.denominator) - 1
@@ -96,6 +113,9 @@ def _sampled(plant: Plant, dt: float) -> tuple[Array, Array, Array, float]:
     system[:order, :order] = np.eye(order, k=-1)
     system[:1, :order] = -denominator[1:]
     system[0, order] = 1.0
-    held = expm(system * (scale * dt))
+    lag = int(round(plant.delay / dt, 9))  # dead time that near to whole steps is of whole steps
+    rest = max(plant.delay / dt - lag, 0.0)
+    first, then = (expm(system * (scale * dt * part)) for part in (rest, 1.0 - rest))
+    A, B = then[:order, :order], then[:order, order]
     C, D = numerator[1:] - numerator[0] * denominator[1:], float(numerator[0])
-    return held[:order, :order], held[:order, order], C, D
+    return Sampled(A @ first[:order, :order], A @ first[:order, order], B, C, D, lag)

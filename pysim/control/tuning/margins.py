@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.control.tuning.loop_response import sampled
 from pysim.control.tuning.plant import Plant
 from pysim.types import BadInput
 
@@ -35,7 +36,7 @@ class Margins:
             where |L| stays above 1 at the end, which a plant that answers at once can do.
         peak_sensitivity: largest 1/|1 + L|.
         bandwidth: rad/s, where the closed loop first crosses -3 dB; infinite where it does not.
-        stable: whether the closed loop is.
+        stable: whether the closed loop is; `stable_when_sampled` asks for the controller as it is run.
     """
 
     crossovers: Array
@@ -78,8 +79,7 @@ def margins(plant: Plant, K_p: float, T_i: float) -> Margins:
     Raises:
         BadInput: a gain of zero or an integration time that is not positive.
     """
-    if not (K_p != 0 and np.isfinite(K_p) and 0 < T_i < np.inf):
-        raise BadInput(f"margins: K_p = {K_p:g}, T_i = {T_i:g} s; give a gain other than zero, a positive time")
+    _check(K_p, T_i)
     omega = _frequencies(plant, K_p, T_i)
     loop = open_loop(plant, K_p, T_i, omega)
 
@@ -107,6 +107,11 @@ def margins(plant: Plant, K_p: float, T_i: float) -> Margins:
         float(edges[0]) if edges.size else np.inf,
         stable,
     )
+
+
+def _check(K_p: float, T_i: float) -> None:
+    if not (K_p != 0 and np.isfinite(K_p) and 0 < T_i < np.inf):
+        raise BadInput(f"margins: K_p = {K_p:g}, T_i = {T_i:g} s; give a gain other than zero, a positive time")
 
 
 def _last(plant: Plant, K_p: float) -> float:
@@ -194,3 +199,42 @@ def _is_stable(plant: Plant, K_p: float, T_i: float, omega: Array) -> bool:
         return False
     turn = np.unwrap(np.angle(free + fed * np.exp(-s * plant.delay)))
     return bool(abs(turn[-1] - turn[0] - (own.size - 1) * np.pi / 2) < np.pi / 2)
+
+
+def stable_when_sampled(plant: Plant, K_p: float, T_i: float, *, dt: float) -> bool:
+    """Whether the closed loop is stable under the difference equation of the controller, stepped every dt (s).
+
+    By the argument principle, over the upper half of the unit circle: F, the characteristic polynomial over its highest
+    power of z, is (1 - 1/z) prod(1 - p/z) (1 + L) of the plant's poles p, has all its poles at 0, and turns by pi less
+    for each root on or outside the circle. Where |L| > 1 it turns with the dead time, as in `margins`.
+
+    Raises:
+        BadInput: a gain of zero, or a time that is not positive.
+    Source: thesis Eq. 5.33.
+    """
+    _check(K_p, T_i)
+    if not 0 < dt < np.inf:
+        raise BadInput(f"sampling time: {dt:g} s; give a positive number")
+    if plant.numerator[-1] == 0.0:  # the plant's zero at 0 hides the integral, a root at 1
+        return False
+    held = sampled(plant, dt)
+    poles = np.asarray(np.linalg.eigvals(held.A), dtype=np.complex128)
+
+    def loop(angle: Array) -> Complex:
+        back = np.exp(-1j * angle)
+        inner = np.eye(poles.size) / back[:, None, None] - held.A
+        driven = held.B + held.late * back[:, None]
+        answer = np.linalg.solve(inner, driven[..., None])[..., 0] @ held.C + held.D * back
+        controller = K_p + K_p * dt / T_i * back / (1 - back)
+        return np.asarray(controller * answer * np.exp(-1j * angle * held.lag), dtype=np.complex128)
+
+    near = [abs(np.angle(p)) + 30 * max(abs(1 - abs(p)), _ON_AXIS) * np.linspace(-1, 1, 600) ** 3 for p in poles]
+    angle = np.concatenate([_frequencies(plant, K_p, T_i) * dt, np.linspace(0, np.pi, 2001), *near])
+    angle = np.unique(angle[(angle > 0) & (angle <= np.pi)])
+    size = np.abs(loop(angle))
+    if held.lag * np.diff(angle)[(size[1:] > 1) & (size[:-1] > 1)].sum() > 4 * (poles.size + 2) * np.pi:
+        return False
+    angle = _close_enough(angle, size, held.lag)
+    back = np.exp(-1j * angle)
+    turn = np.unwrap(np.angle((1 - poles * back[:, None]).prod(axis=1) * (1 - back) * (1 + loop(angle))))
+    return bool(abs(turn[-1] - turn[0]) < np.pi / 2)

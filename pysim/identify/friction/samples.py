@@ -53,17 +53,17 @@ def filtered_samples(test: ShaftTest, inertia: float, *, cutoff_hz: float = 5.0)
         BadInput: an uneven log, one that is too short for the filter, or a cutoff that is too high for its rate.
     Source: thesis Section 5.5, Eq. 5.41.
     """
-    columns = np.column_stack([test.speed, test.torque])
-    speed, torque = zero_phase(test.time, columns, cutoff_hz).T
-    _, acceleration, _ = local_slope(test.time, speed, half_width=HALF_WIDTH)
-    edge = settling_time(cutoff_hz)
+    rate, edge = sampling_rate(test.time), settling_time(cutoff_hz)
     inner = (test.time >= test.time[0] + edge) & (test.time <= test.time[-1] - edge)
-    kept = np.flatnonzero(inner)[:: max(1, int(sampling_rate(test.time) / (OVERSAMPLING * cutoff_hz)))]
     if inner.sum() < 10:
         raise BadInput(
             f"{test.name}: {np.ptp(test.time):g} s are too short for a cutoff of {cutoff_hz:g} Hz; "
             f"log more than {2 * edge:g} s, or raise the cutoff"
         )
+    columns = np.column_stack([test.speed, test.torque])
+    speed, torque = zero_phase(test.time, columns, cutoff_hz).T
+    _, acceleration, _ = local_slope(test.time, speed, half_width=HALF_WIDTH)
+    kept = np.flatnonzero(inner)[:: max(1, int(rate / (OVERSAMPLING * cutoff_hz)))]
     friction = torque - inertia * acceleration
     one = np.ones(test.time.size)
     dropped = (("ends of the filter", int((~inner).sum())),)

@@ -27,7 +27,7 @@ def logged_command(record: MeasuredRecord, column: str, hold: Command | None = N
     Args:
         record: a log over time.
         column: name of the logged command.
-        hold: interpolation between samples, STEPS, LINES or SPLINE; None takes that of the record's kind.
+        hold: interpolation between samples, STEPS, LINES or SPLINE; None takes that of the record, else of its kind.
     Returns:
         the command in the column's unit, in the log's time.
     Raises:
@@ -35,7 +35,7 @@ def logged_command(record: MeasuredRecord, column: str, hold: Command | None = N
     if not isinstance(record.data, Record):
         raise BadInput(f"{record.source}: holds a response over frequency; only a log over time has a command")
     time, values = record.data.time, record.data[column]
-    command = hold or KINDS[record.kind].command
+    command = hold or record.holds.get(column, KINDS[record.kind].command)
     if command is Command.STEPS:
         changes = np.append(True, np.diff(values) != 0)
         return Signal.steps(time[changes], values[changes])

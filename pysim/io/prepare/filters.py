@@ -50,11 +50,11 @@ class LowPass:
             return np.asarray(1 / (1 + (frequency / self.hz) ** (2 * _ORDER)))
 
         def change(record: MeasuredRecord, log: Record) -> Iterator[MeasuredRecord]:
-            step = even_step(dataset, record, log)
+            own = tuple(name for name in names if name in log.names)
+            step = even_step(dataset, record, log, own)
             if self.hz >= 0.5 / step:
                 raise BadInput(f"{record.source} is sampled at {1 / step:.4g} Hz; give less than half of that")
             _refuse_uneven(record, log, step)
-            own = [name for name in names if name in log.names]
             yield with_columns(record, log, {name: filtered(log[name], step, gain) for name in own})
 
         return _quieter(each_log(dataset, change), dataset, names, gain)

@@ -147,13 +147,15 @@ def _missing_lengths(log: Record, names: tuple[str, ...]) -> list[float]:
     return lengths
 
 
-def even_step(dataset: Dataset, record: MeasuredRecord, log: Record) -> float:
+def even_step(dataset: Dataset, record: MeasuredRecord, log: Record, names: tuple[str, ...] = ()) -> float:
     """The sampling interval in s of a log that lacks no samples.
 
+    Args:
+        names: of the columns that must be whole; all where there are none.
     Raises:
         BadInput: it has gaps.
     """
-    refuse_missing_in(dataset, record, log)
+    refuse_missing_in(dataset, record, log, names)
     found = sampling(log.time)
     if found.gaps.size:
         all_outputs = tuple(name for name in log.names if name not in inputs_of(dataset))

@@ -25,7 +25,9 @@ _CUBIC = np.array([0.0, -1.0, 4.0, 0.0, 4.0, -1.0, 0.0]) / 6  # a cubic through 
 
 @dataclass(frozen=True)
 class DropOutliers:
-    """Put straight lines in place of samples that are far off their neighbours, up to three in a row.
+    """Take out samples that are far off their neighbours, up to three in a row.
+
+    What an output lacks then is not compared. Inputs get a straight line there, as a simulation needs all of them.
 
     Args:
         sigmas: how far from the median of the seven samples around it, in standard deviations of all such distances
@@ -51,7 +53,8 @@ class DropOutliers:
                 if wrong.any():
                     column = log[name].copy()
                     good = ~wrong & np.isfinite(column)
-                    column[wrong] = np.interp(log.time[wrong], log.time[good], column[good])
+                    is_input = dataset.signal(name).role == "input"
+                    column[wrong] = np.interp(log.time[wrong], log.time[good], column[good]) if is_input else np.nan
                     columns[name] = column
             yield with_columns(record, log, columns) if columns else record
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import math
-import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from pathlib import Path
+from pathlib import Path, PurePath, PurePosixPath
 
 from pysim.identify.greybox import step_warnings
 from pysim.io import shown_value
@@ -123,7 +122,16 @@ def placed(result: Diagnosed, written: Mapping[str, Path], home: Path) -> Diagno
 
 def relative_files(files: Mapping[str, Path], folder: Path) -> dict[str, str]:
     """Paths relative to a folder, with slashes."""
-    return {name: Path(os.path.relpath(path.resolve(), folder.resolve())).as_posix() for name, path in files.items()}
+    return {name: seen_from(folder.resolve(), path.resolve()) for name, path in files.items()}
+
+
+def seen_from(folder: PurePath, path: PurePath) -> str:
+    """A path relative to a folder, with slashes; whole where no folder holds both, as on two drives of Windows."""
+    shared = next((one for one in (folder, *folder.parents) if path.is_relative_to(one)), None)
+    if shared is None:
+        return path.as_posix()
+    up = [".."] * len(folder.relative_to(shared).parts)
+    return PurePosixPath(*up, *path.relative_to(shared).parts).as_posix()
 
 
 def _effects(diagnosis: Diagnosis) -> Iterator[str]:

@@ -7,6 +7,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
 from pysim.identify.greybox import Profile, fit_warnings
 from pysim.io import shown_value, toml_key, toml_table
 from pysim.present.notes import USES, direction_words, estimate_words, sentences, words
@@ -130,7 +132,7 @@ def _data(fit: Fit) -> dict[str, Any]:
 def _record(record: RecordFit) -> dict[str, Any]:
     return {
         **_keys(record, "dataset", "source", "kind", "use"),
-        "samples": record.measured.time.size,
+        "samples": {name: int(np.isfinite(record.measured[name]).sum()) for name in record.measured.names},
         "rms_over_noise": record.rms,
         "criteria": {
             name: {d.criterion.symbol: {"value": d.value, "limit": d.criterion.limit} for d in deviations}

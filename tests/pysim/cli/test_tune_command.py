@@ -25,12 +25,28 @@ def test_a_plant_of_ones_own_with_dead_time(tmp_path: Path) -> None:
     assert found["stable"]
     assert found["phase_margin_deg"] >= 60.0
     assert found["gain_margin_db"] >= 6.0
-    assert main([*words, "--gains", "50,1"]) == 0  # another's loop that is not stable is no answer to the question
+    assert main([*words, "--gains", "50,1"]) == 1
+
+
+@pytest.mark.parametrize(("dt", "code"), [("0.3", 0), ("0.6", 1)])
+def test_a_loop_that_diverges_as_it_is_sampled_is_a_no(dt: str, code: int, tmp_path: Path) -> None:
+    words = ["tune", "own", "--numerator", "2", "--denominator", "0.5,1", "--delay", "0.05", "--dt", dt]
+    assert main([*words, "--json", str(tmp_path / "t.json")]) == code
+    found = json.loads((tmp_path / "t.json").read_text())["tuned"]
+    assert found["stable"] == (code == 0)
+    assert found["stable_unsampled"]
+
+
+def test_loops_of_the_thesis_are_beside_the_question(tmp_path: Path) -> None:
+    """With 0.2 s of dead time, which none of them was tuned for, both are unstable."""
+    assert main(["tune", "load", "--delay", "0.2", "--json", str(tmp_path / "t.json")]) == 0
+    found = json.loads((tmp_path / "t.json").read_text())
+    assert [loop["stable"] for loop in found.values()] == [True, False, False]
 
 
 @pytest.mark.parametrize("gains", ["-1e-9,0.5", "-.5,1", "-2E1,1"])
 def test_gains_may_be_negative(gains: str, tmp_path: Path) -> None:
-    assert main(["tune", "load", "--gains", gains, "--json", str(tmp_path / "t.json")]) == 0
+    assert main(["tune", "load", "--gains", gains, "--json", str(tmp_path / "t.json")]) == 1  # the wrong sign
     assert json.loads((tmp_path / "t.json").read_text())[gains]["K_p"] == float(gains.split(",")[0])
 
 

@@ -1,6 +1,7 @@
 """A fit: its numbers, and when it warns."""
 
 from dataclasses import replace
+from html import unescape
 from pathlib import Path
 
 import numpy as np
@@ -155,6 +156,16 @@ def test_it_draws_and_is_reported(fitted: Fit, tmp_path: Path) -> None:
     files = fitted.report(tmp_path / "fit")
     assert "When not to trust it" in files["report"].read_text(encoding="utf-8")
     assert "poor" in fitted.summary()
+
+
+def test_the_lines_of_a_report_make_it_again(mass: Model, data: Dataset, tmp_path: Path) -> None:
+    first = pysim.fit(mass, data, initial="rest", outputs="x")
+    page = first.report(tmp_path / "first")["report"].read_text(encoding="utf-8")
+    lines = unescape(page.rpartition("<pre>")[2].partition("</pre>")[0]).replace("first", "again")
+    own = {"pysim": pysim, "model": mass, "data": data}
+    exec(lines, own)
+    assert own["fitted"].values == first.values
+    assert (tmp_path / "again" / "report.html").is_file()
 
 
 def test_a_report_replaces_no_file_of_the_user(fitted: Fit, tmp_path: Path) -> None:

@@ -5,6 +5,7 @@ import random
 from pathlib import Path
 
 import numpy as np
+import pandas
 import pytest
 
 import pysim
@@ -78,6 +79,7 @@ def test_mistakes_are_refused_with_a_cure(mass: Model, ask, said: str) -> None: 
         (lambda m, data: pysim.fit(m, 3), "data", "give what pysim.load"),
         (lambda m, data: pysim.fit(m, data, initial="resting"), "initial", ""),
         (lambda m, data: pysim.fit(m, data, starts="two"), "starts", ""),
+        (lambda m, data: pysim.fit(m, data, starts=1.5), "starts", "write one"),
         (lambda m, data: m.simulate(1, initial="rest"), "initial", "write state = value"),
         (lambda m, data: pysim.load({"t": [0, 1, 2], "x": [0, 1, 2]}, outputs="x"), "inputs", ""),
         (lambda m, data: pysim.load({"t": [0, 1], "x": [0, 1]}, inputs=3, outputs="x"), "inputs", ""),
@@ -177,6 +179,20 @@ def test_a_log_drives_the_inputs_that_its_columns_are_named_like(mass: Model, da
     other = Record(log.data.time, log.data.values, ("force", "x"), log.data.units)
     with pytest.raises(BadInput, match="rename the column"):
         mass.simulate(MeasuredRecord("a.txt", "other", "fit", other))
+
+
+@pytest.mark.parametrize("hold", ["zero", "linear"])
+@pytest.mark.parametrize("initial", ["rest", {}])
+def test_a_log_of_a_data_set_drives_an_input_between_samples_as_that_says(mass, hold, initial) -> None:  # type: ignore[no-untyped-def]
+    """A force that is held, or runs straight, from sample to sample, given as such, and rests at its first."""
+    t, F = 0.5 * np.arange(9), np.array([0.0, 0, 1, 0, 2, 1, -1, 0, 0])
+    far = np.linspace(0, 4, 81)
+    table = {"t": t, "F": F, "x": np.cos(9 * t)}
+    loaded = pysim.load(table, inputs="F", outputs="x", units={"F": "N", "x": "m"}, hold={"F": hold}, noise={"x": 1e-3})
+    run = mass.simulate(loaded[loaded.names[0]], dt=0.05, initial=initial)
+    given = list(zip(t, F, strict=True)) if hold == "zero" else pandas.Series(F, index=t)
+    wanted = mass.simulate(4.0, dt=0.05, F=given)
+    assert run["x"] == pytest.approx(np.interp(far, wanted.time, wanted["x"]), abs=1e-5)
 
 
 def test_a_log_in_another_unit_is_turned_into_that_of_the_input(mass: Model, data: Dataset) -> None:

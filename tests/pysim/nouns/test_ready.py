@@ -63,7 +63,7 @@ def test_the_lines_of_the_check_make_it_ready(data: Data, tmp_path: Path) -> Non
     log = ready.dataset.records[0].data
     assert isinstance(log, Record)
     assert log.units == ("N", "m", "m/s", "Pa")
-    np.testing.assert_allclose(log["x"], np.where(np.arange(TIME.size) == 300, np.nan, PLACE), atol=1e-4)
+    np.testing.assert_allclose(log["x"], np.where(np.isin(np.arange(TIME.size), (300, 700)), np.nan, PLACE), atol=1e-4)
     np.testing.assert_allclose(log["v"], SPEED, atol=1e-3)
     np.testing.assert_allclose(log["p"], PRESSURE, atol=0.02 * np.ptp(PRESSURE))
     ready.save(tmp_path / "ready")

@@ -1,13 +1,14 @@
 """What lies in the folder once a diagnosis is written, and that the answer alone can be shown."""
 
 from dataclasses import replace
-from pathlib import Path
+from pathlib import Path, PurePath, PurePosixPath, PureWindowsPath
 
 import numpy as np
 import pytest
 
 from pysim.present import data, diagnosis, text, write_report
 from pysim.present.diagnosis import Diagnosed
+from pysim.present.diagnosis.answer import seen_from
 from pysim.types import Diagnosis, NextTest
 from tests.pysim.cli.ran import undraw
 from tests.pysim.diagnosis_answer import LAW, dataset, found_offset, nothing
@@ -58,3 +59,15 @@ def test_a_bare_answer_is_shown_by_its_type(tmp_path: Path) -> None:
     page = write_report(tmp_path, found)["report"].read_text()
     assert "toy.offset" in page
     assert "Do it again" not in page
+
+
+@pytest.mark.parametrize(
+    ("folder", "path", "seen"),
+    [
+        (PureWindowsPath("C:/a/b"), PureWindowsPath("D:/c/report.html"), "D:/c/report.html"),
+        (PureWindowsPath("C:/a/b"), PureWindowsPath("C:/a/c/d.png"), "../c/d.png"),
+        (PurePosixPath("/a/b"), PurePosixPath("/a/b/d.png"), "d.png"),
+    ],
+)
+def test_a_file_is_named_from_the_folder_of_its_json(folder: PurePath, path: PurePath, seen: str) -> None:
+    assert seen_from(folder, path) == seen

@@ -1,5 +1,8 @@
 import json
 import tomllib
+from dataclasses import replace
+
+import numpy as np
 
 from pysim.present import Drawing
 from pysim.present.fit import Fitted, data, files, page, text
@@ -32,6 +35,16 @@ def test_the_data_are_plain_and_finite() -> None:
         "determined": False,
     }
     assert found["records"][0]["criteria"]["y"]["E_t mean"] == {"value": 0.2, "limit": 2.0}
+
+
+def test_samples_are_those_that_were_measured() -> None:
+    fit = small_fit()
+    (one, *_) = fit.records
+    values = one.measured.values.copy()
+    values[[0, 2], 0] = np.nan
+    lacking = replace(one, measured=replace(one.measured, values=values))
+    found = data(Fitted(replace(fit, records=(lacking,)), ()))
+    assert next(iter(found["records"][0]["samples"].values())) == one.measured.time.size - 2
 
 
 def test_the_page_holds_everything_a_reader_needs() -> None:

@@ -25,10 +25,11 @@ LOOPS = {
 
 
 def test_text_tells_gains_margins_and_stability() -> None:
-    head, first, second = text(Tuning(LOOPS, 1e-3)).splitlines()
+    head, first, second, warning = text(Tuning(LOOPS, 1e-3)).splitlines()
     assert head.split()[:1] == ["K_p"]
     assert {"1.01e-09", "0.023", "3.018", "60.06", "35.5", "yes"} <= set(first.split())
     assert second.endswith("NO")
+    assert "wild" in warning
 
 
 def test_data_in_hertz_and_degrees() -> None:

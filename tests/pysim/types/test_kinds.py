@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from pysim.types import BadInput
-from pysim.types.kinds import mapping_of, names_of, number_of, path_of
+from pysim.types.kinds import mapping_of, names_of, number_of, path_of, whole_number_of
 
 
 def test_one_name_is_no_row_of_letters_and_lists_are_laid_flat() -> None:
@@ -16,6 +16,7 @@ def test_one_name_is_no_row_of_letters_and_lists_are_laid_flat() -> None:
 
 
 def test_numbers_paths_and_mappings_stay_what_they_are() -> None:
+    assert whole_number_of(np.float64(3.0), "starts") == 3
     found = number_of(np.float32(0.5), "hz")
     assert (found, type(found)) == (0.5, float)
     assert path_of("a/b", "folder") == path_of(Path("a/b"), "folder") == Path("a/b")
@@ -26,7 +27,8 @@ def test_numbers_paths_and_mappings_stay_what_they_are() -> None:
     ("take", "given"),
     [
         (number_of, "0.5"), (number_of, None), (number_of, [1.0, 2.0]), (names_of, 3), (names_of, {"a": 1}),
-        (names_of, ["a", 3]), (path_of, 3), (path_of, ["a"]), (mapping_of, "mm"), (mapping_of, ["x"]),
+        (names_of, ["a", 3]), (path_of, 3), (path_of, ["a"]), (mapping_of, "mm"),
+        (whole_number_of, 1.5), (whole_number_of, float("nan")), (whole_number_of, "2"), (mapping_of, ["x"]),
     ],
 )  # fmt: skip
 def test_another_kind_is_refused_and_the_argument_named(take, given) -> None:  # type: ignore[no-untyped-def]

@@ -57,11 +57,12 @@ def test_parts_of_a_step_look_closer_at_the_same_loop() -> None:
     assert np.ptp(fine.command[:-1].reshape(-1, 5), axis=1).max() == 0.0
 
 
-def test_dead_time_is_rounded_to_the_parts() -> None:
-    """k t under a gain: nothing up to the dead time, half a step's worth half a step later."""
-    plant = Plant((1.0,), (1.0, 0.0), delay=0.005)
-    found = loop_response(plant, 1.0, 1e9, dt=0.01, stop=0.02, parts=2)
-    assert found.output[:3] == pytest.approx([0.0, 0.0, 0.005])
+@pytest.mark.parametrize("parts", [1, 2, 5])
+def test_dead_time_ends_within_a_step(parts: int) -> None:
+    """k t of an integrator under a gain of 1, from the end of the dead time on, at all ends of the parts."""
+    plant = Plant((1.0,), (1.0, 0.0), delay=0.0137)
+    found = loop_response(plant, 1.0, 1e9, dt=0.01, stop=0.02, parts=parts)
+    assert found.output == pytest.approx(np.maximum(found.time - 0.0137, 0.0), abs=1e-12)
 
 
 def test_a_plant_that_answers_at_once_is_read_before_the_command_is_written() -> None:

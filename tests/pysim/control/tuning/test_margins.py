@@ -3,7 +3,14 @@ import math
 import numpy as np
 import pytest
 
-from pysim.control.tuning import Plant, load_pressure_plant, margins, shaft_speed_plant
+from pysim.control.tuning import (
+    Plant,
+    load_pressure_plant,
+    loop_response,
+    margins,
+    shaft_speed_plant,
+    stable_when_sampled,
+)
 from pysim.control.tuning.margins import open_loop
 from pysim.types import BadInput
 
@@ -145,6 +152,40 @@ def test_a_loop_that_answers_at_once_with_more_than_it_gets_bears_no_dead_time()
     assert margins(plant, 0.6, 1e3).delay_margin > 0.0
 
 
+@pytest.mark.parametrize("share", [0.98, 1.02])
+@pytest.mark.parametrize("late", [0.0, 0.3, 1.0])
+def test_an_integrator_under_a_sampled_gain_in_closed_form(late: float, share: float) -> None:
+    """1/s, a gain k and dead time of d steps dt, d at most 1: z^2 - z (1 - k dt (1 - d)) + k dt d.
+
+    Jury: k dt d < 1 and k dt (1 - 2 d) < 2. The loop that is not sampled bears a quarter turn, k dt d < pi/2.
+    """
+    plant, dt = Plant((1.0,), (1.0, 0.0), delay=late * 0.1), 0.1
+    k = share * min(1 / late if late else np.inf, 2 / (1 - 2 * late) if late < 0.5 else np.inf) / dt
+    assert stable_when_sampled(plant, k, 1e9, dt=dt) == (share < 1)
+    assert margins(plant, k, 1e9).stable
+    assert not stable_when_sampled(plant, -k, 1e9, dt=dt)
+
+
+@pytest.mark.parametrize(("dt", "stable"), [(0.3, True), (0.6, False)])
+def test_a_loop_with_good_margins_diverges_if_it_is_sampled_slowly(dt: float, stable: bool) -> None:
+    """A lag of 0.5 s with 0.05 s of dead time under 60 degrees of phase margin."""
+    plant = Plant((2.0,), (0.5, 1.0), delay=0.05)
+    assert margins(plant, 2.063, 0.3436).stable
+    assert stable_when_sampled(plant, 2.063, 0.3436, dt=dt) == stable
+    late = np.abs(loop_response(plant, 2.063, 0.3436, dt=dt, stop=100 * dt).output[-20:] - 1).max()
+    assert (late < 0.1) == stable
+
+
+@pytest.mark.parametrize("share", [0.99, 1.01])
+def test_dead_time_of_many_samples_is_as_without_sampling(share: float) -> None:
+    """k exp(-s T)/s bears k T below a quarter turn; a hold of dt is half a step more."""
+    dt, delay = 1e-3, 60.0
+    k = share * math.pi / 2 / (delay + dt / 2)
+    assert stable_when_sampled(Plant((1.0,), (1.0, 0.0), delay), k, 1e9, dt=dt) == (share < 1)
+
+
 def test_wrong_gains_are_refused() -> None:
     with pytest.raises(BadInput, match="positive time"):
         margins(INTEGRATOR, 1.0, 0.0)
+    with pytest.raises(BadInput, match="positive"):
+        stable_when_sampled(INTEGRATOR, 1.0, 1.0, dt=0.0)

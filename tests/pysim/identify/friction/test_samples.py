@@ -19,6 +19,13 @@ def test_pulse_samples_scatter_around_the_law_by_what_they_claim() -> None:
         assert abs(np.mean(score[some] * np.sign(samples.speed[some]))) < 4 / np.sqrt(some.sum())
 
 
+@pytest.mark.parametrize("cutoff_hz", [0.01, 1e-9])
+def test_a_log_that_is_short_beside_the_filter_is_refused(cutoff_hz: float) -> None:
+    time = np.arange(0, 20, 0.01)
+    with pytest.raises(BadInput, match="raise the cutoff"):
+        filtered_samples(ShaftTest("t", time, np.cos(time), np.sin(time)), INERTIA, cutoff_hz=cutoff_hz)
+
+
 def test_inertia_counts() -> None:
     """Without it the samples miss by J dw/dt, 0.4 N.m at the swing's steepest."""
     swing = simulated()

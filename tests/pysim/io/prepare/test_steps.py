@@ -173,15 +173,28 @@ def test_outliers_go_and_steps_stay() -> None:
     spoilt = noisy.copy()
     wrong = [3, 500, 501, 1500, 1994]
     spoilt[wrong] += [2.0, -1.5, -1.4, 0.5, -2.0]
-    _, y = y_of(DropOutliers().apply(dataset(TIME, spoilt)))
-    assert set(np.flatnonzero(y != spoilt)) == set(wrong)
-    np.testing.assert_allclose(y, clean, atol=0.1)
+    data = dataset(TIME, spoilt, spoilt)
+    log = DropOutliers(signals=("u", "y")).apply(data).records[0].data
+    assert isinstance(log, Record)
+    for name in ("u", "y"):
+        assert set(np.flatnonzero(log[name] != spoilt)) == set(wrong)
+    assert np.isnan(log["y"][wrong]).all()
+    np.testing.assert_allclose(log["u"], clean, atol=0.1)
 
 
 @pytest.mark.parametrize("hz", [10.0, 40.0, 100.0])
 def test_a_clean_sine_has_no_outliers(hz: float) -> None:
     data = dataset(TIME, sine(TIME, hz))
     np.testing.assert_array_equal(y_of(DropOutliers(5.0).apply(data))[1], y_of(data)[1])
+
+
+def test_a_low_pass_of_one_signal_needs_the_samples_of_that_alone() -> None:
+    lacking = np.where(TIME == 0.5, np.nan, sine(TIME, 10.0))
+    found = LowPass(50.0, ("u",)).apply(dataset(TIME, sine(TIME, 10.0), lacking)).records[0].data
+    assert isinstance(found, Record)
+    np.testing.assert_array_equal(found["y"], lacking)
+    with pytest.raises(BadInput, match="y lacks 1 sample"):
+        LowPass(50.0).apply(dataset(TIME, sine(TIME, 10.0), lacking))
 
 
 def test_short_gaps_of_inputs_are_filled_and_long_ones_cut() -> None:
