@@ -1,6 +1,7 @@
 """Sampled controllers: every block in Modelica against its twin in Python, sample by sample."""
 
 import math
+from copy import deepcopy
 
 import numpy as np
 import pytest
@@ -65,15 +66,14 @@ def gate(seed: int) -> Signal:
 
 @pytest.mark.parametrize("name", TWINS)
 def test_a_block_is_its_python_twin_to_rounding(name: str) -> None:
-    block, overrides, sizes = TWINS[name]
+    kept, overrides, sizes = TWINS[name]
+    block = deepcopy(kept)
     signals = {key: gate(k) if key == "active" else wander(size, k) for k, (key, size) in enumerate(sizes.items())}
     if "p_s" in signals:
         signals["p_s"] = Signal.constant(310e5)
     time = np.arange(COUNT) * DT
     columns = [signal.value(time) for signal in signals.values()]
-    start = block.state()
     wanted = np.array([block.step(t, row) for t, row in zip(time, zip(*columns, strict=True), strict=True)])
-    block.restore(start)
     names = [port.name for port in block.outputs]
     names = ["y"] if names == ["u"] and name == "PI" else names
     held = Experiment(time + DT / 2, tuple(names), signals, overrides)

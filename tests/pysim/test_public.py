@@ -11,7 +11,7 @@ NOUNS = ("Comparison", "Data", "Diagnosis", "Effect", "Fit", "Model")
 
 
 def test_the_verbs_and_the_nouns_are_there() -> None:
-    assert dir(pysim) == sorted(["BadInput", "open_session", *NOUNS, *VERBS])
+    assert dir(pysim) == sorted(["BadInput", "SimulationError", "open_session", *NOUNS, *VERBS])
     for name in VERBS:
         found = getattr(pysim, name)
         assert found.__name__ == name
