@@ -32,9 +32,9 @@ from validation.findings import Finding
 CLASS = "HydraulicTestBench.Examples.SteppedSine"
 RATIO, LIMIT = 20.0, 0.01  # at least; percent of the angle's range, root mean square, at most
 
-# Rodas holds the limit in every run at 1e-3 and misses it at 3e-3, CVODE misses it at 3e-4.
-NATIVE = Rodas(rtol=5e-4, atol=5e-4)
-CVODE_TOLERANCE = 1e-4
+# Rodas holds the limit in every run at 5e-4 and misses it at 1e-3, CVODE misses it at 1e-4.
+NATIVE = Rodas(rtol=2.5e-4, atol=2.5e-4)
+CVODE_TOLERANCE = 3e-5
 
 _REPEATS = 5  # of the native side, which takes a fraction of a second: the median counts
 
