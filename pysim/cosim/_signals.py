@@ -23,22 +23,23 @@ class Signals:
         followed = [_followed(experiment, name) for name in layout.signals]
         self._functions, self._jumps = [one for one, _ in followed], [jumps for _, jumps in followed]
         self._tick = self._end_tick = 0
-        self._rows: list[memoryview[float]] = []
-        self._end_rows: list[memoryview[float]] = []
+        self._table: memoryview[float] = view_of(np.zeros(0))
+        self._end_rows: list[list[float]] = []
 
     def at(self, tick: int) -> memoryview[float]:
         """Values at start + tick * step."""
-        line = tick - self._tick
-        if not 0 <= line < len(self._rows):
-            self._tick, line = tick, 0
-            self._rows = [view_of(row) for row in self._values(after(self._times(tick)))]
-        return self._rows[line]
+        count = len(self._functions)
+        place = (tick - self._tick) * count
+        if not 0 <= place < len(self._table):
+            self._tick, place = tick, 0
+            self._table = view_of(self._values(after(self._times(tick))).ravel())
+        return self._table[place : place + count]
 
     def between(self, time: float) -> memoryview[float]:
         """Values at any time, s."""
         return view_of(self._values(after(np.array([time])))[0])
 
-    def toward(self, time: float, end: float, tick: int | None) -> memoryview[float]:
+    def toward(self, time: float, end: float, tick: int | None) -> list[float]:
         """Where lines that leave the values at `time` arrive at `end` (s), to the left of a jump there.
 
         A signal that jumps on the way keeps its value: a step stays a step, and comes with the next point.
@@ -47,11 +48,11 @@ class Signals:
             tick: number of the communication point at `end`, if it is one.
         """
         if tick is None or time != self._start + (tick - 1) * self._step:
-            return view_of(self._ends(np.array([time]), np.array([end]))[0])
+            return self._ends(np.array([time]), np.array([end]))[0]
         line = tick - self._end_tick
         if not 0 <= line < len(self._end_rows):
             self._end_tick, line = tick, 0
-            self._end_rows = [view_of(row) for row in self._ends(self._times(tick - 1), self._times(tick))]
+            self._end_rows = self._ends(self._times(tick - 1), self._times(tick))
         return self._end_rows[line]
 
     def _times(self, tick: int) -> Array:
@@ -60,10 +61,14 @@ class Signals:
     def _values(self, times: Array) -> Array:
         return np.column_stack([of(times) for of in self._functions])
 
-    def _ends(self, times: Array, ends: Array) -> Array:
+    def _ends(self, times: Array, ends: Array) -> list[list[float]]:
         first, last = after(times), before(ends)
         latest = np.column_stack([jumps[np.searchsorted(jumps, last, side="right") - 1] for jumps in self._jumps])
-        return np.where(latest > first[:, None], self._values(first), self._values(last))
+        found, jumped = self._values(last), latest > first[:, None]
+        rows = jumped.any(axis=1)
+        found[rows] = np.where(jumped[rows], self._values(first[rows]), found[rows])
+        kept: list[list[float]] = found.tolist()
+        return kept
 
 
 def after(times: NDArray[np.floating]) -> Array:
