@@ -198,11 +198,11 @@ class Project:
             self.change(deleted=())
 
     def use_model(self, name: str, libraries: tuple[str, ...]) -> None:
-        """Another model, with its own values and nothing added."""
+        """Another model, with its own values and nothing added; or the same one, of libraries that may be others."""
         if name != self.settings().model:
             self.set_values({})
-            self.change(free=(), bounds=())
-        self.change(model=name, libraries=libraries, added=())
+            self.change(free=(), bounds=(), added=())
+        self.change(model=name, libraries=libraries)
 
     def model_name(self, name: str) -> str:
         """What the settings call the model that a user names: `Pump.fmu` may lie below `model/`."""
@@ -219,12 +219,13 @@ class Project:
         return hashlib.sha256(repr((chosen, self.files())).encode()).hexdigest()
 
     def files(self) -> str:
-        """Of data, model and libraries, by sizes and times; of the description by what it says."""
+        """Of data, model and libraries, by their bytes: what comes back as it was is the same. Of the description by
+        what it says."""
         digest = hashlib.sha256()
         for name, path in (*_below(self.data), *_below(self.models), *self._elsewhere(self.settings())):
             stat = path.stat()
-            seen = (stat.st_size, stat.st_mtime_ns) if path != self.description else _said(path, stat.st_mtime_ns)
-            digest.update(repr((name, seen)).encode())
+            read = _said if path == self.description else _bytes
+            digest.update(repr((name, read(path, stat.st_mtime_ns, stat.st_size))).encode())
         return digest.hexdigest()
 
     def _elsewhere(self, settings: Settings) -> Iterator[tuple[str, Path]]:
@@ -291,8 +292,15 @@ class Project:
         return earlier / f"{kind}-{1 + max((int(one[1]) for one in found if one), default=0)}"
 
 
+@lru_cache(maxsize=4096)
+def _bytes(path: Path, _modified: int, _size: int) -> str:
+    """A digest of a file, read once per change of it."""
+    with path.open("rb") as file:
+        return hashlib.file_digest(file, "sha256").hexdigest()
+
+
 @lru_cache(maxsize=8)
-def _said(path: Path, _modified: int) -> str:
+def _said(path: Path, _modified: int, _size: int) -> str:
     """What a dataset.toml says that results depend on, in whatever order and words; its text where it is none."""
     try:
         content = read_toml(path, path.name).whole.values

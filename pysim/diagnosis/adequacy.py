@@ -39,7 +39,8 @@ def shortcomings(dataset: Dataset, free: Sequence[str], initial: str = "near res
     outputs = {name for record in fitted for name in _outputs(record, dataset)}
     if len(outputs) == 1:
         notes.append(
-            f"only {outputs.pop()} was logged: effects that act alike on it cannot be separated; log its drive too"
+            f"{outputs.pop()} is the only output that was logged: effects that act alike on it cannot be separated; "
+            "log another one too"
         )
     return tuple(notes)
 

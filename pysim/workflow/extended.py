@@ -155,9 +155,10 @@ def _limits(found: Diagnosis, parts: SessionParts) -> list[str]:
 
 
 def _excited(dataset: Dataset) -> str:
-    """Ranges of the inputs, and the frequencies of stepped sines."""
+    """Ranges of the inputs in logs that were fitted, and the frequencies of stepped sines among these."""
     ranges: dict[str, tuple[float, float]] = {}
-    for record in dataset.logs():
+    fitted = [record for record in dataset.records if record.use == "fit"]
+    for record in fitted:
         for name in dataset.columns(record, "input"):
             values = record.data[name]  # type: ignore[index]
             low, high = ranges.get(name, (float("inf"), -float("inf")))
@@ -166,6 +167,6 @@ def _excited(dataset: Dataset) -> str:
     for name, (low, high) in ranges.items():
         unit, factor = shown_unit(dataset.signal(name).unit)
         texts.append(f"{name} from {factor * low:.4g} to {factor * high:.4g} {unit}")
-    sines = [record.frequency for record in dataset.records if record.frequency is not None]
+    sines = [record.frequency for record in fitted if record.frequency is not None]
     texts += [f"sines from {min(sines):g} to {max(sines):g} Hz"] if sines else []
     return "; ".join(texts) or "see the data set"

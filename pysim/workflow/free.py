@@ -57,7 +57,7 @@ def begun_at(model: Model, values: Mapping[str, float]) -> Model:
 
 def _example(model: Model) -> str:
     """What frees a parameter of the model, in a terminal and in Python."""
-    said = "--free {0} --bounds {0}={1}:{2}, in Python .free({0}=({1}, {2}))".format
+    said = "on page Model, --free {0} --bounds {0}={1}:{2}, in Python .free({0}=({1}, {2}))".format
     for v in model.variables:
         if v.causality == "parameter" and v.type in ("Real", "Float64") and v.start and math.isfinite(v.start):
             return said(v.name, *(f"{end:g}" for end in sorted((0.1 * v.start, 10 * v.start))))

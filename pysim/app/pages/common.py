@@ -107,7 +107,8 @@ def aside(desk: Desk) -> None:
 
 def aside_words(desk: Desk) -> str:
     """Why there are no results."""
-    return f"The results belonged to what was chosen before. Changed: {desk.put_aside}. Undo brings them back."
+    back = "Redo" if desk.history.future else "Undo"
+    return f"The results belonged to what was chosen before. Changed: {desk.put_aside}. {back} brings them back."
 
 
 def doubts(answer: Answer) -> None:

@@ -28,7 +28,7 @@ _KINDS: Mapping[str, tuple[str, str, str]] = {
     "shift in time": ("delay", "seconds", "s, later"),
     "low pass": ("lowpass", "hz", "Hz"),
     "resample": ("resample", "hz", "samples a second"),
-    "fill gaps": ("fill_gaps", "longest", "s at most"),
+    "fill gaps": ("fill_gaps", "longest", "longest gap, s"),
     "take out outliers": ("drop_outliers", "sigmas", "standard deviations"),
     "take off the mean": ("detrend", "", ""),
 }

@@ -60,7 +60,7 @@ class Writing:
         text("p", f"It gives {gives}. It may use {words}. Any other name becomes a parameter.", "small")
         props = "rows=2 spellcheck=false autocomplete=off"
         field = Entry(f"law for {slot.name}", self._law, self._typed, props, tag="textarea", each=True)
-        field.classes("field mono")._props["placeholder"] = f"-F_c*tanh({(slot.sees or ('time',))[-1]}/v_0)"
+        field.classes("field mono")._props["placeholder"] = "-F_c*tanh({0}/{0}_0)".format((slot.sees or ("time",))[-1])
         live(lambda: self._version, self._rows, "tight")
         if is_new and self._law:
             self._typed(self._law)

@@ -68,7 +68,7 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict == NONE:
         return f"Nothing is missing: the refitted model explains the measurements. {_left(diagnosis)}"
     if diagnosis.verdict == UNKNOWN:
-        tried = "No effect that was tried explains it." if diagnosis.rivals else "No effect was tried."
+        tried = "Nothing that was tried explains it." if diagnosis.rivals else "No effect was tried."
         return " ".join([*(laws or ["Something is missing."]), tried, _left(diagnosis)])
     names = [_named(one) for one in diagnosis.effects]
     count = "an effect" if len(names) == 1 else f"{len(names)} effects"

@@ -44,6 +44,28 @@ def test_the_fingerprint_tells_other_data_and_another_model(tmp_path: Path) -> N
     assert project.fingerprint() == seen[-1]
 
 
+def test_a_file_that_comes_back_as_it_was_is_the_same_whatever_its_date(tmp_path: Path) -> None:
+    project = Project.at(tmp_path / "p")
+    file = project.models / "A.mo"
+    file.parent.mkdir()
+    seen = []
+    for date, text in enumerate(("one", "two", "one")):
+        file.write_text(text)
+        os.utime(file, (date, date))
+        seen.append(project.fingerprint())
+    assert seen[0] == seen[2] != seen[1]
+
+
+def test_a_library_that_is_dropped_again_keeps_what_was_added(tmp_path: Path) -> None:
+    project = Project.at(tmp_path / "p")
+    project.use_model("A.B", ("model/A.mo",))
+    project.change(added=("x",), free=("k",))
+    project.use_model("A.B", ("model/A.mo",))
+    assert (project.settings().added, project.settings().free) == (("x",), ("k",))
+    project.use_model("A.C", ("model/A.mo",))
+    assert (project.settings().added, project.settings().free) == ((), ())
+
+
 def test_what_is_chosen_and_taken_back_leaves_the_fingerprint(tmp_path: Path) -> None:
     """The bytes need not be the same, nor the order: an answer is of what was asked."""
     project = Project.at(tmp_path / "p")

@@ -100,7 +100,7 @@ def test_what_is_left_is_said_with_none_with_unknown_and_where_more_is_missing()
 
 def test_where_no_effect_was_tried_none_is_excluded() -> None:
     tried, bare = (verdict_sentence(nothing(complete=False, **more)) for more in ({}, {"rivals": ()}))
-    assert "No effect that was tried" in tried
+    assert "Nothing that was tried" in tried
     assert "No effect was tried" in bare
 
 
