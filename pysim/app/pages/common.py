@@ -46,7 +46,8 @@ def busy(desk: Desk, here: str = "") -> str:
         return desk.doing
     if desk.check is None or not desk.check.records:
         bare = desk.project.data.is_dir() and not desk.project.description.is_file()
-        return ("Say what the columns of the logs are" if bare else "Drop a data set") + data
+        first = "" if desk.project.settings().model else "Use a model, then "
+        return (f"{first}say what the columns of the logs are".capitalize() if bare else "Drop a data set") + data
     if desk.loaded is not None and desk.loaded.refused:
         return "Mend the logs that were refused, or leave them out" + data
     if desk.loaded is not None and desk.loaded.empty_cells:
@@ -55,7 +56,11 @@ def busy(desk: Desk, here: str = "") -> str:
         return "Name a model first"
     if unfit(desk):
         return "Let every signal be a variable of the model, or leave it out" + data
-    return "Wait until the model is built" if desk.model_busy else desk.model_trouble and "Name another model"
+    return (
+        "Wait until the model is built"
+        if desk.model_busy
+        else desk.model_trouble and "Mend the model and drop it again, or name another one"
+    )
 
 
 def unfit(desk: Desk) -> list[str]:

@@ -32,6 +32,7 @@ _KINDS: Mapping[str, tuple[str, str, str]] = {
     "take out outliers": ("drop_outliers", "sigmas", "standard deviations"),
     "take off the mean": ("detrend", "", ""),
 }
+_ALL_LOGS, _OF_LOGS = "all logs", ("flip", "scale")  # steps that may change some logs alone
 _ONE = ("scale", "delay")  # steps that name one signal; below, those that name any
 _SOME = ("flip", "lowpass", "drop_outliers", "detrend", "fill_gaps")
 
@@ -54,7 +55,7 @@ class _View:
         self._desk = desk
         self.log, self.kind = 0, next(iter(_KINDS))
         self._window: tuple[float, float] | None = None
-        self._signal, self._number = _ALL, ""
+        self._signal, self._number, self._of = _ALL, "", _ALL_LOGS
         self._said: tuple[object, str] = None, ""  # data that were checked with the model, and the answer
 
     def lights(self) -> None:
@@ -68,7 +69,8 @@ class _View:
             words = "Name a model, and wait until nothing runs" if off else ""
             with box("row"):
                 button("Check signs and units with the model", self._checked, "small", off=words)
-                text("span", self._said[1] if self._said[0] is self._desk.loaded else "", "small")
+                said = self._said[1] if self._said[0] is self._desk.loaded else "Signs and units are not checked yet"
+                text("span", said, "small")
             for k, log in enumerate(check.dataset.logs()):
                 found = [one for one in check.findings if one.source == log.source]
                 with box("row").mark(log.source):
@@ -172,6 +174,11 @@ class _View:
                     self._signal = self._signal if self._signal in options else options[0]
                     text("span", "to", "head")
                     Choice("signal of the step", options, self._signal, partial(self._set, "_signal"))
+                if word in _OF_LOGS:
+                    logs = [_ALL_LOGS, *(log.source for log in check.dataset.logs())]
+                    self._of = self._of if self._of in logs else _ALL_LOGS
+                    text("span", "in", "head")
+                    Choice("logs of the step", logs, self._of, partial(self._set, "_of"))
                 if field:
                     text("span", unit, "head")
                     Entry("number of the step", self._number, partial(self._set, "_number"), "type=number step=any")
@@ -187,11 +194,13 @@ class _View:
             step["signal"] = self._signal
         elif word in _SOME and (self._signal not in (_ALL, _INPUTS) or word == "flip"):
             step["signals"] = [s.name for s in self._shown.signals] if self._signal == _ALL else [self._signal]
+        if word in _OF_LOGS and self._of != _ALL_LOGS:
+            step["logs"] = [self._of]
         if field:
             try:
                 step[field] = float(self._number)
             except ValueError:
-                raise BadInput(f"{self.kind}: {self._number!r} is no number; write one, {unit}") from None
+                raise BadInput(f"{self.kind}: the field '{unit}' has no number yet; write one") from None
         self._insert(step)
 
     @property

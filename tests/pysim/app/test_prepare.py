@@ -164,4 +164,9 @@ def test_a_turned_sign_is_found_with_the_model_and_turned_by_a_click(
     )
     tab.page.get_by_role("button", name="remove step 1").click()
     told.wait_for(state="detached")  # it was of other data
+    tab.page.get_by_label("signal of the step").select_option("x")
+    tab.page.get_by_label("logs of the step").select_option("b.txt")
+    tab.page.get_by_role("button", name="Add", exact=True).click()
+    tab.see('1. flip("x", logs=["b')
+    assert [(one["signals"], one["logs"]) for one in chain(project)] == [(["x"], ["b.txt"])]
     assert tab.errors == []
