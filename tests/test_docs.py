@@ -209,7 +209,7 @@ def test_the_limits_on_the_page_are_those_that_judge() -> None:
         ("tutorials/workbench.md", ("--host",)),
         (
             "how-to/other_programs.md",
-            ("output intervals of at most 1 ms", "500 steps per output interval", "tell FMPy's authors"),
+            ("output intervals of at most 1 ms", "500 steps per output interval"),
         ),
     ],
 )
