@@ -11,7 +11,7 @@ import shutil
 import tomllib
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
-from functools import lru_cache
+from functools import cache, lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -292,7 +292,7 @@ class Project:
         return earlier / f"{kind}-{1 + max((int(one[1]) for one in found if one), default=0)}"
 
 
-@lru_cache(maxsize=4096)
+@cache  # of every file: a bounded one would forget each before it is asked for again where there are more
 def _bytes(path: Path, _modified: int, _size: int) -> str:
     """A digest of a file, read once per change of it."""
     with path.open("rb") as file:

@@ -46,8 +46,8 @@ def busy(desk: Desk, here: str = "") -> str:
         return desk.doing
     if desk.check is None or not desk.check.records:
         bare = desk.project.data.is_dir() and not desk.project.description.is_file()
-        first = "" if desk.project.settings().model else "Use a model, then "
-        return (f"{first}say what the columns of the logs are".capitalize() if bare else "Drop a data set") + data
+        first = "Say" if desk.project.settings().model else "Use a model, then say"
+        return (f"{first} what the columns of the logs are" if bare else "Drop a data set") + data
     if desk.loaded is not None and desk.loaded.refused:
         return "Mend the logs that were refused, or leave them out" + data
     if desk.loaded is not None and desk.loaded.empty_cells:
