@@ -64,6 +64,7 @@ class Desk:
     Args:
         take: gives another project, once this server has it to itself.
         doing: what goes on that is no job, in words; "" where nothing does.
+        drawing: whether a report is being drawn.
         trouble: why the last of it failed.
         taking: whether a drop is being put into the project.
         draft: what was chosen so far for logs that nobody has described.
@@ -76,6 +77,7 @@ class Desk:
     limits: Limits
     take: Callable[[Path], Project] = Project.at
     doing: str = ""
+    drawing: bool = False
     trouble: str = ""
     version: int = 0
     beat: int = 0
@@ -364,10 +366,18 @@ class Desk:
         """Let the worker draw the report of a result."""
         if self.runner.running is not None or self.model_busy:
             raise BadInput("wait until the running work has ended; then open the report again")
+        self._draws(True)
         try:
             await self._ask("report", name)
         except Ended as error:
             raise BadInput("the report was not finished; open it again") from error
+        finally:
+            self._draws(False)
+
+    def _draws(self, now: bool) -> None:
+        self.drawing = now
+        self.beat += 1
+        news.emit()
 
 
 def load(project: Project) -> Loaded | None:

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
+from weakref import WeakKeyDictionary
 
 import nicegui.elements.plotly  # registers the library that chart.js loads
-from nicegui import json, ui
+from nicegui import Client, json, ui
 from nicegui.element import Element
 from nicegui.elements.mixins.text_element import TextElement
 
@@ -19,6 +20,7 @@ from pysim.io import shown_value
 _STATIC = Path(__file__).parent / "static"
 
 assert nicegui.elements.plotly
+_errors: WeakKeyDictionary[Client, ui.notification] = WeakKeyDictionary()  # that tabs show
 
 
 class Chart(Element, component=str(_STATIC / "chart.js")):
@@ -243,6 +245,7 @@ def button(words: str, action: Callable[[], Any], kind: str = "", *, off: str = 
         element._props["title"] = off
 
     def press() -> Any:
+        _close_error()
         news.emit()
         return action()
 
@@ -271,9 +274,21 @@ def note(words: str, kind: str = "") -> None:
 
 
 def say(words: str, *, bad: bool = False) -> None:
-    """A sentence that goes away by itself; an error stays until it is read."""
-    kind = {"type": "negative", "timeout": 0, "close_button": "Close"} if bad else {"type": "positive", "timeout": 3500}
-    ui.notify(words, position="bottom-right", multi_line=True, **kind)  # type: ignore[arg-type]
+    """A sentence that goes away by itself; an error stays until it is closed, or a button is pressed."""
+    _close_error()
+    if not bad:
+        ui.notify(words, position="bottom-right", multi_line=True, type="positive", timeout=3500)
+        return
+    _errors[ui.context.client] = ui.notification(
+        words, position="bottom-right", multi_line=True, type="negative", timeout=None, close_button="Close"
+    )
+
+
+def _close_error() -> None:
+    """The error of this tab is of an earlier press."""
+    shown = _errors.pop(ui.context.client, None)
+    if shown is not None and not shown.is_deleted:
+        shown.dismiss()
 
 
 def curve(shown: Mapping[str, Any] | None) -> None:

@@ -35,11 +35,11 @@ _KEYWORDS = {
 
 
 class LawRefused(BadInput):
-    """What is wrong in the text of a law, and at which of its letters."""
+    """What is wrong in the text of a law, and at which of its letters; `what` leaves out where that is."""
 
-    def __init__(self, sentence: str, place: int) -> None:
-        super().__init__(sentence, argument="law")
-        self.place = place
+    def __init__(self, where: str, what: str, place: int) -> None:
+        super().__init__(f"{where}: {what}", argument="law")
+        self.what, self.place = what, place
 
 
 @dataclass(frozen=True)
@@ -237,7 +237,7 @@ def _place(law: str, word: str, start: int) -> int:
 
 def _refusal(name: str, law: str, start: int, message: str) -> LawRefused:
     line, column = law.count("\n", 0, start) + 1, start - law.rfind("\n", 0, start)
-    return LawRefused(f"law of {name}, line {line}, column {column}: {message}", start)
+    return LawRefused(f"law of {name}, line {line}, column {column}", message, start)
 
 
 def parameter_text(one: EffectParameter) -> str:

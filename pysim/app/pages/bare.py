@@ -29,7 +29,10 @@ def describe_form(desk: Desk) -> None:
     columns = draft["columns"]
     with card("What are the columns of these logs?"):
         told = f"{counted(len(logs), 'log')}, {len(columns)} columns, as {logs[0].name} has them. "
-        text("p", f"{told}A dash leaves a column out; the noise may be left empty.", "small")
+        told += "A dash leaves a column out; the noise may be left empty."
+        if len(logs) > 1:
+            told += " Unless they are sines, the last log is not fitted but used to choose; a later table changes that."
+        text("p", told, "small")
         with box("form").style("grid-template-columns: 1.2fr 0.8fr 0.8fr 1.6fr 0.8fr"):
             for words in ("column", "is", "unit", "variable of the model", "noise"):
                 text("span", words, "head")

@@ -43,7 +43,8 @@ def _build(desk: Desk) -> None:
     answer = desk.answers.newest("ranking")
     effects = (desk.model or {}).get("effects", [])
     if answer is None and not effects:
-        nothing("No candidates yet", "Name a model with slots on the page Data.")
+        named = "The model has no slots that an effect fits. Compare shows where it fails."
+        nothing("No candidates", named if desk.model else "Name a model with slots on the page Data.")
         return
     with card("Candidates" if answer else "Effects that fit the model's slots"):
         rows = _rows(answer)

@@ -65,7 +65,8 @@ def _ready(desk: Desk) -> None:
     with box("card row end"):
         with box("tight"):
             text("b", "Ready to compare")
-            told = "Compare refits the model and shows where it fails. Find also tries every effect that fits."
+            told = "Compare refits the model and shows where it fails. Find also tries every effect that fits. "
+            told += "That takes seconds for a small model and minutes for a pump; it can be stopped and goes on later."
             text("span", told, "small")
         with box("row"):
             start_button(desk, "Compare and refit", "compare", then="/compare")
@@ -235,7 +236,10 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     read = [record.source for record in check.records]
     with card(f"{counted(len(check.records), 'record')}, {held} {NOT_FITTED}"):
         told = "A log used to choose is not fitted; it helps to tell which model is better. A held-out log only shows "
-        text("p", f"{told}how well the answer predicts. All others are fitted. Click a row to see it.", "small")
+        told += "how well the answer predicts. All others are fitted. Click a row to see it."
+        if not any(record.use == "validate" for record in check.records):
+            told += " No log is used to choose, so the fitted logs alone tell which model is better."
+        text("p", told, "small")
         Table(
             "Records", columns, [_row(record) for record in check.records], height="360px", on_tick=used,
             on_row=lambda k: preview.update(record=k), picked=preview.get("record", -1),
@@ -262,7 +266,8 @@ def _earlier(desk: Desk) -> None:
             with box("row").mark(folder.name):
                 button(f"Bring back {folder.name}", partial(desk.bring_back, folder), "small", off=off)
                 found = [path.name for path in folder.rglob("*") if path.is_file()]
-                text("span", counted(len(found), "file") + ", described" * ("dataset.toml" in found), "small")
+                told = ", described" if "dataset.toml" in found else ", as they were dropped; columns not described"
+                text("span", counted(len(found), "file") + told, "small")
 
 
 def _log_number(check: DataCheck, row: int) -> int | None:

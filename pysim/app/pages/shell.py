@@ -151,10 +151,10 @@ def _job(desk: Desk) -> None:
                 text("span", job.stage, "stage")._props["title"] = job.work.title
                 text("span", clock(job.seconds), "time")
                 button("Stop", desk.runner.stop, "small")
-        elif desk.doing:
+        elif desk.doing or desk.drawing:
             with box("job"):
                 box("spin")
-                text("span", desk.doing, "stage")
+                text("span", desk.doing or "Drawing the report", "stage")
         elif desk.last is not None and desk.last.state == FAILED:
             text("span", "Failed", "chip bad")
         elif desk.last is not None:
@@ -192,13 +192,13 @@ def _states(desk: Desk) -> list[tuple[str, bool]]:
     check = desk.check
     answers = desk.answers
     settings, values = desk.project.settings(), desk.project.values()
-    compared, ranked = answers.with_effects(()), answers.newest("ranking")
-    located, whole = answers.newest("missing"), answers.verdict
+    located, whole, ranked = answers.newest("missing"), answers.verdict, answers.newest("ranking")
     now = answers.with_effects(settings.added)
+    compared = now or answers.with_effects(())  # as the page Compare has it: its noise is that of one answer
     error = "" if compared is None else f"{_rms(compared.base['step'], compared.data['error'])} × noise"
     first = "" if located is None else str(located.data["missing"][0]["slot"])
     best = "" if ranked is None else best_of(ranked)
-    verdict = best if whole is None else str(whole.data["verdict"])
+    verdict = str(whole.data["verdict"]) if whole is not None and whole.added == settings.added else best
     step = "refit" if now is None else history(now, settings.added)[-1]["step"]
     last = "" if now is None or step in STEPS else f"{_rms(step, now.data['error'])} × noise"
     return [

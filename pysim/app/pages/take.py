@@ -18,7 +18,7 @@ _FILES = (
     ("modelica", "Modelica class", "Yours extended, with the fitted values, and what it needs. Your files stay."),
     ("fmu", "FMU", "The same class compiled; its defaults are the fitted values."),
     ("parameters", "Parameters", "The fitted values as lines NAME = VALUE, for --parameters."),
-    ("report", "Report", "The whole answer on one page that needs nothing else."),
+    ("report", "Report", "The whole answer on one page. Opening it for the first time draws it, in some seconds."),
     ("plan", "Next test", "A plan of the test that separates what these measurements do not, for pysim bench."),
 )
 
@@ -29,7 +29,7 @@ def take_page(desk: Desk) -> None:
 
 
 def _build(desk: Desk) -> None:
-    head("Take it away", "Everything is a file in the project's folder already; the commands make all of it again.")
+    head("Take it away", "All of it lies in the project's folder; the commands make it again.")
     added = desk.project.settings().added
     answer = desk.answers.with_effects(added)
     aside(desk)

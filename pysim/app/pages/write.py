@@ -12,6 +12,7 @@ from pysim.app.desk import Desk
 from pysim.app.live import live, news
 from pysim.app.pages.common import amount, busy
 from pysim.app.parts import Chart, Entry, box, button, text
+from pysim.io import shown_unit
 from pysim.present.diagnosis.figures.law import law_chart
 from pysim.types import BadInput
 from pysim.workflow import LawPlace, typed_law
@@ -58,6 +59,11 @@ class Writing:
         words = ", ".join(f"{name} ({self._place.units.get(name) or 'any unit'})" for name in (*slot.sees, "time"))
         gives = ", ".join(f"{name} ({self._place.units.get(name) or 'any unit'})" for name in slot.gives)
         text("p", f"It gives {gives}. It may use {words}. Any other name becomes a parameter.", "small")
+        units = dict.fromkeys(learned["shape"][name] for name in ("argument_unit", "unit")) if learned else {}
+        read = {unit: shown_unit(unit) for unit in units if shown_unit(unit)[1] != 1.0}
+        told = ", ".join(f"1 {unit} = {factor:.4g} {shown}" for unit, (shown, factor) in read.items())
+        if told:
+            text("p", f"The curve is drawn in other units than a law is written in: {told}.", "small")
         props = "rows=2 spellcheck=false autocomplete=off"
         field = Entry(f"law for {slot.name}", self._law, self._typed, props, tag="textarea", each=True)
         field.classes("field mono")._props["placeholder"] = "-F_c*tanh({0}/{0}_0)".format((slot.sees or ("time",))[-1])
@@ -91,7 +97,8 @@ class Writing:
                 self._followed = found.curve is not None
                 self._curve = None if found.curve is None else found.curve.tolist()
             except BadInput as error:
-                self._trouble, self._wrong = str(error) if law.strip() else "", getattr(error, "place", -1)
+                self._trouble = getattr(error, "what", str(error)) if law.strip() else ""
+                self._wrong = getattr(error, "place", -1)
             if self._chart is not None:
                 self._chart.show(*self._figure())
             self._version = asked
