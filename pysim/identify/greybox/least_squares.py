@@ -22,6 +22,10 @@ Array = NDArray[np.float64]
 _POOR, _GOOD, _NONE = 0.25, 0.75, 1e-4
 _SHORTEST = 1e-9  # radius below which a search has stalled
 _BISECTIONS = 20
+# Steps that exchange all numbers which bounds hold wrongly without there being fewer of these, before one at a time.
+# Source: Judice and Pires 1994.
+_PATIENCE = 3
+_ROUNDING = 1e-12  # of a slope, over the sizes it is made of
 _SETTINGS = FitSettings()
 
 
@@ -243,18 +247,23 @@ def damped_step(triangle: Array, right: Array, damping: float, low: Array, high:
     Args:
         triangle: (n, n); right: (n,).
         low, high: (n,), each low below its high.
-    Source: Nocedal and Wright 2006, Numerical Optimization, Section 10.3.
+    Source: Nocedal and Wright 2006, Numerical Optimization, Section 10.3; its bounds by the block pivots of Judice and
+    Pires 1994, Computers and Operations Research 21:587, which end since the last of Murty's rule do.
     """
     n = right.size
     matrix = np.vstack([triangle, math.sqrt(damping) * np.eye(n)])
     longer = np.concatenate([right, np.zeros(n)])
-    free = np.linalg.lstsq(matrix, longer, rcond=None)[0]
-    if np.all(free >= low) and np.all(free <= high):
-        return np.asarray(free)
-    from scipy.optimize import lsq_linear  # 0.3 s to import, where a bound is met
-
-    with np.errstate(divide="ignore", invalid="ignore"):  # of itself it ends after n exchanges, wherever that is
-        found = lsq_linear(matrix, longer, (low, high), method="bvls", tol=1e-14, max_iter=100 * n).x
-    if not np.all(np.isfinite(found)):  # where it steps on a bound that a rounding has put it beyond
-        found = lsq_linear(matrix, longer, (low, high), method="trf", tol=1e-14).x
-    return np.asarray(found)
+    still = _ROUNDING * np.linalg.norm(matrix, axis=0) * np.linalg.norm(longer)
+    held, fewest, patience = np.zeros(n), n + 1, _PATIENCE  # held: at which bound, -1 or 1, or 0
+    while True:
+        p, free = np.choose((held + 1).astype(int), (low, np.zeros(n), high)), held == 0
+        p[free] = np.linalg.lstsq(matrix[:, free], longer - matrix @ p, rcond=None)[0]
+        pulled = held * ((matrix @ p - longer) @ matrix) <= still  # against its bound
+        after = np.where(free, (p > high) * 1.0 - (p < low), held * pulled)
+        wrong = np.flatnonzero(after != held)
+        if not wrong.size:
+            return p
+        patience = _PATIENCE if wrong.size < fewest else patience - 1
+        fewest = min(fewest, wrong.size)
+        exchanged = wrong if patience >= 0 else wrong[-1:]
+        held[exchanged] = after[exchanged]

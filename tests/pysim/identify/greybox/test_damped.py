@@ -1,6 +1,3 @@
-from types import SimpleNamespace
-from typing import Any
-
 import numpy as np
 import pytest
 from scipy.optimize import lsq_linear
@@ -24,19 +21,20 @@ def test_a_bound_holds_one_number_and_the_others_make_the_best_of_it() -> None:
     assert found == pytest.approx([1.0, (0.5 * (3 - 1) + 1) / 1.25])
 
 
-def test_where_the_active_set_loses_its_way_the_other_method_answers(monkeypatch: pytest.MonkeyPatch) -> None:
-    """As SciPy's did on a number that a rounding had put beyond its bound."""
-
-    def lost(*args: Any, method: str, **words: Any) -> Any:
-        if method == "bvls":
-            return SimpleNamespace(x=np.full(2, np.nan))
-        return lsq_linear(*args, method=method, **words)
-
-    monkeypatch.setattr("scipy.optimize.lsq_linear", lost)
-    triangle, right = np.array([[1.0, 0.5], [0.0, 1.0]]), np.array([3.0, 1.0])
-    high = np.array([1.0, 100.0])
-    found = damped_step(triangle, right, 0.0, -high, high)
-    assert found == pytest.approx([1.0, (0.5 * (3 - 1) + 1) / 1.25], rel=1e-6)
+def test_where_exchanges_of_all_numbers_would_repeat_the_answer_is_that_of_another_method() -> None:
+    """SciPy's, on numbers that do nearly the same: of these every seventh set of bounds comes back."""
+    rng = np.random.default_rng(5)
+    for _ in range(150):
+        n = int(rng.integers(3, 12))
+        alike = 10 ** rng.uniform(0, 3) * rng.standard_normal((2 * n, 1)) * rng.choice([-1, 1], n)
+        triangle = np.linalg.qr(rng.standard_normal((2 * n, n)) + alike)[1]
+        right, low, high = 10 * rng.standard_normal(n), -rng.random(n), rng.random(n)
+        damping = 1e-10 * np.linalg.norm(triangle, 2) ** 2
+        matrix, longer = np.vstack([triangle, np.sqrt(damping) * np.eye(n)]), np.concatenate([right, np.zeros(n)])
+        other = lsq_linear(matrix, longer, (low, high), method="bvls", tol=1e-14, max_iter=1000 * n)
+        found = damped_step(triangle, right, damping, low, high)
+        assert np.all((found >= low) & (found <= high))
+        assert 0.5 * np.sum((matrix @ found - longer) ** 2) == pytest.approx(other.cost, rel=1e-12)
 
 
 def test_with_many_numbers_at_their_bounds_no_step_within_them_is_better() -> None:
