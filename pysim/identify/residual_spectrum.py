@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from pysim.types import sampling
@@ -29,12 +30,12 @@ def residual_spectrum(time: Array, values: Array) -> tuple[Array, Array, float]:
         power (n_f,); and the degrees of freedom of each value.
     Source: Welch 1967, IEEE Transactions on Audio and Electroacoustics 15:70; Hann windows that overlap by half.
     """
-    from scipy import signal  # half a second to import, and only a diagnosis' picture needs it
-
     step, there = sampling(time).step, np.isfinite(values)
     values = np.where(there, values, 0.0) / math.sqrt(max(float(np.mean(there)), 1 / values.size))
     length = min(values.size, max(FEWEST // 2, values.size // _SEGMENTS))
-    frequency, density = signal.welch(values, 1 / step, nperseg=length, detrend=False)
+    window = np.sin(np.pi * np.arange(length) / length) ** 2
+    segments = sliding_window_view(values, length)[:: length - length // 2]
+    density = np.mean(np.abs(np.fft.rfft(window * segments)) ** 2, axis=0) / np.sum(window**2)
     count = 2 * (values.size // length) - 1
-    lines = slice(1, (length + 1) // 2)
-    return frequency[lines], density[lines] / (2 * step), 2 * count * _CORRELATED if count > 1 else 2.0
+    frequency, lines = np.asarray(np.fft.rfftfreq(length, step), dtype=np.float64), slice(1, (length + 1) // 2)
+    return frequency[lines], density[lines], 2 * count * _CORRELATED if count > 1 else 2.0

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy import signal
 
 from pysim.identify.residual_spectrum import residual_spectrum
 
@@ -12,6 +13,17 @@ def test_noise_of_size_one_has_power_one_and_the_spread_that_is_told() -> None:
     _, power, freedom = residual_spectrum(TIME, np.random.default_rng(1).standard_normal(TIME.size))
     assert np.mean(power) == pytest.approx(1.0, abs=0.03)
     assert np.var(power) == pytest.approx(2 / freedom, rel=0.2)  # of a chi-square over its degrees of freedom
+
+
+@pytest.mark.parametrize("samples", [128, 129, 777, 4001])
+def test_it_is_the_periodogram_of_welch_as_scipy_has_it(samples: int) -> None:
+    values = np.random.default_rng(2).standard_normal(samples)
+    frequency, power, _ = residual_spectrum(np.arange(samples) / 200, values)
+    length = min(samples, max(64, samples // 8))
+    wanted = signal.welch(values, 200, nperseg=length, detrend=False)
+    lines = slice(1, (length + 1) // 2)
+    np.testing.assert_allclose(frequency, wanted[0][lines], rtol=1e-12)
+    np.testing.assert_allclose(power, wanted[1][lines] * 200 / 2, rtol=1e-12)
 
 
 def test_the_power_of_a_sine_is_found_at_its_frequency() -> None:
