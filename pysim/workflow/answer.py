@@ -34,7 +34,7 @@ def _conditions(parts: SessionParts, place: str) -> dict[str, str]:
         "data set": f"{parts.dataset.name}, {len(parts.dataset.records)} records{f', {place}' if place else ''}",
         "libraries": ", ".join(str(library) for library in parts.libraries) or "the one that comes along",
         "free parameters": ", ".join(parts.free) or "none",
-        "other values begun at": ", ".join(f"{name} = {value:g}" for name, value in parts.overrides.items()) or "none",
+        "parameter values given": ", ".join(f"{name} = {value:g}" for name, value in parts.overrides.items()) or "none",
         "candidates": ", ".join(effect.name for effect in parts.catalogue) or "none",
         "versions": versions(),
     }
