@@ -24,6 +24,7 @@ RUNNING, DONE, STOPPED, FAILED = "running", "done", "stopped", "failed"
 _JOB = "job.json"
 ANSWER, RECORDS, EVENTS, OUTPUT = "answer.json", "records.npz", "events.jsonl", "output.txt"
 CURVES = "curves.json"  # one log beside the best point so far
+QUICK = 1.0  # s; drawing a search that takes less would only hold it up
 REPORT = "report"  # folder of what can be taken away, and of the checkpoint
 _PATIENCE = 3.0  # s between asking a process that somebody else has begun to end, and ending it
 

@@ -17,7 +17,7 @@ import numpy as np
 from pysim import workflow
 from pysim.app.bare_logs import describe_logs
 from pysim.app.followed import Followed
-from pysim.app.jobs import ANSWER, CURVES, EVENTS, OUTPUT, RECORDS, REPORT, Work, read_job
+from pysim.app.jobs import ANSWER, CURVES, EVENTS, OUTPUT, QUICK, RECORDS, REPORT, Work, read_job
 from pysim.app.project import Project
 from pysim.app.worker import said_in
 from pysim.diagnosis import Session, Settings, add, compare, diagnose, learn, rank
@@ -111,7 +111,7 @@ class Tasks:
 
     def _drawing(self, tell: Callable[[ProgressEvent], None], file: Path) -> Callable[[ProgressEvent], None]:
         """Tells of a search, and draws one log beside each better point of the base model, in a share of its time."""
-        best, pause_until, number = math.inf, 0.0, self._followed[0][0] if self._followed else 0
+        best, pause_until, number = math.inf, time.monotonic() + QUICK, self._followed[0][0] if self._followed else 0
 
         def told(event: ProgressEvent) -> None:
             nonlocal best, pause_until

@@ -6,12 +6,11 @@ from collections.abc import Iterable
 from typing import Any
 
 from pysim.app.desk import Desk
+from pysim.app.jobs import QUICK
 from pysim.app.live import live
 from pysim.app.parts import Chart, Table, box, card, text
 from pysim.app.records import followed_overlay
 from pysim.present.diagnosis.figures.search import left_over, search_chart
-
-_QUICK = 1.0  # s; drawing a search that takes less would only hold it up
 
 
 def moving(desk: Desk) -> None:
@@ -20,7 +19,7 @@ def moving(desk: Desk) -> None:
 
 
 def _is_quick(desk: Desk) -> bool:
-    return desk.runner.running is not None and desk.runner.running.seconds < _QUICK
+    return desk.runner.running is not None and desk.runner.running.seconds < QUICK
 
 
 def _build(desk: Desk) -> None:

@@ -50,7 +50,10 @@ def test_the_answer_is_that_of_the_command_line_which_takes_the_folder_over(proj
     assert answer(folder) == before
 
 
-def test_a_log_is_drawn_beside_the_best_point_while_the_search_runs(project: Project) -> None:
+def test_a_log_is_drawn_beside_the_best_point_while_the_search_runs(
+    project: Project, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("pysim.app.tasks.QUICK", 0.0)  # else a search that takes less is not drawn
     own = Tasks(project.folder)
     folder = done(project, "compare", own)
     drawn = json.loads((folder / CURVES).read_text())
