@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from pysim.app import tasks
 from pysim.app.jobs import ANSWER, CURVES, Job, Work, _write_job, works
 from pysim.app.project import Project
 from pysim.app.tasks import Tasks
@@ -53,7 +54,7 @@ def test_the_answer_is_that_of_the_command_line_which_takes_the_folder_over(proj
 def test_a_log_is_drawn_beside_the_best_point_while_the_search_runs(
     project: Project, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("pysim.app.tasks.QUICK", 0.0)  # else a search that takes less is not drawn
+    monkeypatch.setattr(tasks, "QUICK", 0.0)  # else a search that takes less is not drawn
     own = Tasks(project.folder)
     folder = done(project, "compare", own)
     drawn = json.loads((folder / CURVES).read_text())
