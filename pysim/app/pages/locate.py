@@ -55,7 +55,7 @@ def _build(desk: Desk, chosen: dict[str, str]) -> None:
         note(f"This was found of the model {had}. Press Locate to ask about the model that is shown now.")
     if not _slots(desk) or (desk.model or {}).get("structure") is None:
         if not found:
-            named = "The model has no slots; Locate tries laws at its inputs and outputs."
+            named = "The model has no slots. Locate tries laws at its states, or at the inputs and outputs of an FMU."
             nothing("Nothing to look into yet", named if desk.model else "Name a model on the page Data.")
         return
     _drawing(desk, found, chosen)

@@ -22,8 +22,8 @@ Array = NDArray[np.float64]
 _POOR, _GOOD, _NONE = 0.25, 0.75, 1e-4
 _SHORTEST = 1e-9  # radius below which a search has stalled
 _BISECTIONS = 20
-# Steps that exchange all numbers which bounds hold wrongly without there being fewer of these, before one at a time.
-# Source: Judice and Pires 1994.
+# Exchanges of all numbers that bounds hold wrongly. If so many in a row leave no fewer of these, one number
+# at a time is exchanged. Source: Judice and Pires 1994.
 _PATIENCE = 3
 _ROUNDING = 1e-12  # of a slope, over the sizes it is made of
 _SETTINGS = FitSettings()
@@ -247,8 +247,8 @@ def damped_step(triangle: Array, right: Array, damping: float, low: Array, high:
     Args:
         triangle: (n, n); right: (n,).
         low, high: (n,), each low below its high.
-    Source: Nocedal and Wright 2006, Numerical Optimization, Section 10.3; its bounds by the block pivots of Judice and
-    Pires 1994, Computers and Operations Research 21:587, which end since the last of Murty's rule do.
+    Source: Nocedal and Wright 2006, Numerical Optimization, Section 10.3. Bounds: block pivots, Judice and Pires 1994,
+    Computers and Operations Research 21:587. They end, since in the end they follow Murty's rule.
     """
     n = right.size
     matrix = np.vstack([triangle, math.sqrt(damping) * np.eye(n)])
