@@ -12,25 +12,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.identify.data_check.finding import Finding, FindingCode, finding
+from pysim.identify.data_check.settings import ModelCheckSettings
 from pysim.identify.greybox.noise import seen_noise
 from pysim.io.prepare import Flip, Rename, Scaled, short_name
 from pysim.types import UNITS, Dataset, MeasuredSignal, Model, Record, conversion
 
 Array = NDArray[np.float64]
 
-_FOLLOWS = 0.7  # absolute correlation above which a signal follows the simulated one, or its negative
-_ALIKE = 0.8  # of the largest correlation in any log: the others tell a sign by as much, though they follow less
-_TONE = 0.1  # share of an answer's power beside its strongest line, below which it is one sine: such an answer is
-_LOBE = 2  # turned by a wrong resonance as well as by a sign; so many lines on each side, and periods, are too few
-_TURNED = 0.95  # absolute correlation of a sine against the model, above which its sign is turned all the same
-_MOVES = 0.05  # of a signal's largest simulated motion in any log: one that is simulated to move less tells nothing
-_CLEAR = 12.0  # noises: a smaller swing may be noise, which alone swings by four; what is near zero has no ratio
-_TAIL = 0.02  # of the samples at either end that a swing leaves out, for outliers
-_NEAR = 1.5  # ratio to a factor below, up to which a gain counts as that factor; the model's own gain may be wrong
-# A missing effect makes a signal larger or smaller, and hides whether it follows the model. By more than this factor
-# none does: friction, a dead band or a leak takes its part of a motion that is otherwise the model's.
-_BEYOND = 10.0
-_ROUGH = 0.2  # power of a factor by which a swing that does not follow may be off: of 1e5 as much as _BEYOND
+_SETTINGS = ModelCheckSettings()
 _FACTORS = (10.0, 60.0, 1000.0)  # usual factors between units that are mixed up; by unit these instead
 _OF_UNIT: Mapping[str, tuple[float, ...]] = {
     "rad": (180 / math.pi,),
@@ -38,7 +27,6 @@ _OF_UNIT: Mapping[str, tuple[float, ...]] = {
     "Pa": (1e5, 10.0, 1000.0),
     "m3/s": (6e4, 60.0, 1000.0),
 }
-_OFFSET = 0.02  # share of a signal's range below which an offset of its regression is set to zero
 
 
 @dataclass(frozen=True)
@@ -66,15 +54,16 @@ class _Log:
     @property
     def follows(self) -> bool:
         """Whether it follows the model, or its negative."""
-        return abs(self.correlation) >= _FOLLOWS
+        return abs(self.correlation) >= _SETTINGS.follows
 
     @property
     def is_tone(self) -> bool:
         """Whether the simulated signal is one sine of several periods."""
         power = np.abs(np.fft.rfft(self.own * np.hanning(self.own.size))) ** 2
         peak = int(np.argmax(power))
-        line = float(power[max(peak - _LOBE, 0) : peak + _LOBE + 1].sum())
-        return peak > _LOBE and line > (1 - _TONE) * float(power.sum())
+        lobe = _SETTINGS.lobe
+        line = float(power[max(peak - lobe, 0) : peak + lobe + 1].sum())
+        return peak > lobe and line > (1 - _SETTINGS.tone) * float(power.sum())
 
     @property
     def gain(self) -> float:
@@ -86,8 +75,8 @@ class _Log:
         """Measured over simulated swing, whatever their levels and shapes; None if either may be noise or rounding."""
         swings = []
         for values in (self.measured, self.own):
-            low, high = np.quantile(values, (_TAIL, 1 - _TAIL))
-            if not high - low > _CLEAR * seen_noise(values):
+            low, high = np.quantile(values, (_SETTINGS.tail, 1 - _SETTINGS.tail))
+            if not high - low > _SETTINGS.clear * seen_noise(values):
                 return None
             swings.append(float(high - low))
         return swings[0] / swings[1]
@@ -116,9 +105,8 @@ class _Pair:
     def telling(self) -> tuple[_Log, ...]:
         """Logs to judge one by one; all in a row where none follows by itself, and all together do."""
         size = [float(np.std(log.own)) for log in self.logs]
-        able = [
-            log for log, own in zip(self.logs, size, strict=True) if own > _MOVES * max(size) and np.ptp(log.measured)
-        ]
+        least = _SETTINGS.moves * max(size)
+        able = [log for log, own in zip(self.logs, size, strict=True) if own > least and np.ptp(log.measured)]
         return (self.whole,) if self.whole.follows and not any(log.follows for log in able) else tuple(able)
 
 
@@ -205,7 +193,7 @@ def _swapped(one: _Pair, other: _Pair) -> float | None:
         return None
     crossed = abs(_correlation(a.measured, b.own)), abs(_correlation(b.measured, a.own))
     straight = abs(a.correlation), abs(b.correlation)
-    if min(crossed) < _FOLLOWS or 2 - sum(crossed) > 0.5 * (2 - sum(straight)):
+    if min(crossed) < _SETTINGS.follows or 2 - sum(crossed) > _SETTINGS.swapped * (2 - sum(straight)):
         return None
     return min(crossed)
 
@@ -218,11 +206,11 @@ def _of_signal(pair: _Pair) -> Iterator[Finding]:
             yield _calibrated(pair)
         return
     most = max((abs(log.correlation) for log in logs), default=0.0)
-    least = min(_FOLLOWS, _ALIKE * most) if most >= _FOLLOWS else math.inf
+    least = min(_SETTINGS.follows, _SETTINGS.alike * most) if most >= _SETTINGS.follows else math.inf
     right = any(log.correlation >= least for log in logs)
     wrong = [log for log in logs if log.correlation <= -least]
     if right:
-        wrong = [log for log in wrong if log.correlation <= -_TURNED or not log.is_tone]
+        wrong = [log for log in wrong if log.correlation <= -_SETTINGS.turned_tone or not log.is_tone]
     if wrong:
         some = tuple(log.name for log in wrong) if right else ()
         cure, how = Flip((signal.name,), some), _in_a_row(wrong).correlation
@@ -250,22 +238,22 @@ def _slips(logs: Sequence[_Log], unit: float, factors: tuple[float, ...]) -> dic
         factors: that are known.
     """
     every = [f for one in factors for f in (one, 1 / one)]
-    far = [f for f in every if abs(math.log(f)) > math.log(_BEYOND)]
+    far = [f for f in every if abs(math.log(f)) > math.log(_SETTINGS.beyond_effects)]
     found, rough = dict[str, float](), dict[str, float]()
     for log in logs:
         gain, ratio = math.log(abs(log.gain) / unit) if log.follows else math.inf, log.ratio
         size = 0.0 if ratio is None else math.log(ratio / unit)
         factor = _closest(every, gain)
-        if abs(gain - math.log(factor)) < math.log(_NEAR):
+        if abs(gain - math.log(factor)) < math.log(_SETTINGS.near_factor):
             found[log.source] = factor
-        elif abs(size) > math.log(_BEYOND):
+        elif abs(size) > math.log(_SETTINGS.beyond_effects):
             factor = _closest(far, size)
-            if abs(size - math.log(factor)) <= _ROUGH * abs(math.log(factor)):
+            if abs(size - math.log(factor)) <= _SETTINGS.rough * abs(math.log(factor)):
                 rough[log.source] = factor
         elif log.follows or ratio is not None:
             found[log.source] = 1.0
     if 1.0 in found.values():  # a plant that hardly moves in one log, as in its dead band, may be measured right there
-        rough = {source: f for source, f in rough.items() if abs(math.log(f)) > 2 * math.log(_BEYOND)}
+        rough = {source: f for source, f in rough.items() if abs(math.log(f)) > math.log(_SETTINGS.beyond_rest)}
     return found | rough
 
 
@@ -278,7 +266,7 @@ def _calibrated(pair: _Pair) -> Finding:
     signal, whole = pair.signal, pair.whole
     factor = float(f"{1 / whole.gain:.4g}")
     offset = whole.levels[1] - factor * whole.levels[0]
-    small = _OFFSET * float(np.ptp(whole.own))
+    small = _SETTINGS.no_offset * float(np.ptp(whole.own))
     offset = 0.0 if abs(offset) < small else float(f"{offset:.4g}")
     cure = Scaled(signal.name, factor, offset, pair.unit, signal.unit)
     told = {"signal": signal.name, "unit": signal.unit, "wanted": pair.unit}

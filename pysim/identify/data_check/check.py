@@ -12,23 +12,16 @@ from pysim.identify.data_check.clipping import plateaus
 from pysim.identify.data_check.clock import Clock, clock
 from pysim.identify.data_check.finding import Finding, FindingCode, finding
 from pysim.identify.data_check.folding import share_near_nyquist
+from pysim.identify.data_check.settings import LogCheckSettings
 from pysim.identify.data_check.swing import swing
 from pysim.identify.logged import logged_wave
 from pysim.io.prepare import DropOutliers, Exclude, FillGaps, Resample, Step, fill_of, outliers, short_name
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, MeasuredSignal, Model, Record
 from pysim.types.record_kind import CHIRP, KINDS
 
-_PERIODS = 2.0  # whole periods that a sine fit needs after the transients are cut off
-_DRIFT = 0.02  # periods by which command and specified frequency may differ over a log
-_OFF = 0.01  # share of the specified amplitude by which offset and amplitude of the command may be wrong
-_IMPURE = 0.02  # largest residual of the command's sine fit, over the root mean square of the sine
-_JITTER = 0.05  # largest jitter, as a share of the sampling interval
+_SETTINGS = LogCheckSettings()
 _HARMONIC = 3  # a symmetric nonlinearity causes this harmonic
-_FOLDED = 0.01  # largest share of a signal's variance close to half the sampling rate
-_SLOW = 1.0  # Hz: a slower log probably has its times in another unit than s
 _ROUNDING = 1e-6
-_SHORT = 20  # samples: fewer do not show a response
-_CUTS = 3  # largest number of clipped stretches that are cut out one by one; with more, the whole log is excluded
 
 
 @dataclass(frozen=True)
@@ -178,12 +171,12 @@ def _of_log(
     dataset: Dataset, record: MeasuredRecord, log: Record, base: Clock, limits: dict[str, tuple[float, float]]
 ) -> Iterator[Finding]:
     source, own = record.source, short_name(dataset, record)
-    if log.time.size < _SHORT:
-        yield finding(FindingCode.TOO_SHORT, source, Exclude(own), rows=log.time.size, least=_SHORT)
+    if log.time.size < _SETTINGS.fewest_samples:
+        yield finding(FindingCode.TOO_SHORT, source, Exclude(own), rows=log.time.size, least=_SETTINGS.fewest_samples)
         return
-    if base.rate < _SLOW * (1 + _ROUNDING):
+    if base.rate < _SETTINGS.slow_rate * (1 + _ROUNDING):
         yield finding(FindingCode.SLOW_CLOCK, source, rate=base.rate)
-    if base.jitter > _JITTER:
+    if base.jitter > _SETTINGS.jitter:
         even = Resample(float(f"{base.rate:.3g}"))
         yield finding(FindingCode.UNEVEN, source, even, jitter=base.jitter, rate=base.rate)
     there = {name: log[name][np.isfinite(log[name])] for name in log.names}
@@ -201,9 +194,9 @@ def _of_log(
     for name in log.names:
         if dataset.signal(name).role == "output":
             yield from _of_output(dataset, record, log, name, inside, limits[name])
-        whole = there[name].size > (1 - _FOLDED) * log.time.size  # more that are missing fold by themselves
+        whole = there[name].size > (1 - _SETTINGS.folded) * log.time.size  # more that are missing fold by themselves
         share = share_near_nyquist(there[name], dataset.signal(name).deviation) if broad and whole else 0.0
-        if share > _FOLDED:
+        if share > _SETTINGS.folded:
             yield finding(FindingCode.FOLDED, source, signal=name, share=share)
 
 
@@ -217,7 +210,7 @@ def _of_output(
     if flat:
         cuts = _joined(flat, time.size)
         cure = [Exclude(own, *map(float, (time[a], time[b - 1]))) for a, b in cuts]
-        if len(cuts) > _CUTS or cuts == [(0, time.size)]:
+        if len(cuts) > _SETTINGS.most_cuts or cuts == [(0, time.size)]:
             cure = [Exclude(own)]
         yield finding(
             FindingCode.CLIPPED,
@@ -241,7 +234,7 @@ def _joined(flat: Sequence[tuple[int, int]], size: int) -> list[tuple[int, int]]
     """Samples (first, stop) to leave out, so that no stretch that is left is too short; `size` samples in all."""
     cuts = [(0, 0)]
     for first, stop in (*flat, (size, size)):
-        if first - cuts[-1][1] < _SHORT:
+        if first - cuts[-1][1] < _SETTINGS.fewest_samples:
             first = cuts.pop()[0]
         cuts.append((first, stop))
     return [(first, stop) for first, stop in cuts if stop > first]
@@ -265,7 +258,7 @@ def _of_sine(
     told, time, values = float(record.frequency or 0.0), log.time[inside], log[name][inside]
     duration = float(time[-1] - time[0])
     periods = told * (duration + 1 / base.rate)  # the last sample counts as an interval too
-    if periods < _PERIODS - _ROUNDING:
+    if periods < _SETTINGS.fewest_periods - _ROUNDING:
         yield finding(FindingCode.FEW_PERIODS, source, periods=periods, frequency=told)
     if _HARMONIC * told > 0.5 * base.rate:
         yield finding(FindingCode.ALIASED, source, harmonic=_HARMONIC, frequency=told, rate=base.rate)
@@ -274,9 +267,9 @@ def _of_sine(
     except BadInput as error:
         yield finding(FindingCode.NO_SINE, source, signal=name, reason=str(error))
         return
-    if abs(found.frequency - told) * duration > _DRIFT and found.impurity < 1:
+    if abs(found.frequency - told) * duration > _SETTINGS.drift and found.impurity < _SETTINGS.no_sine:
         yield finding(FindingCode.FREQUENCY, source, signal=name, value=found.frequency, told=told)
-    if found.impurity > _IMPURE:
+    if found.impurity > _SETTINGS.impure:
         yield finding(FindingCode.IMPURE, source, signal=name, share=found.impurity)
     yield from _of_level(record, command, found.offset, found.amplitude)
 
@@ -284,7 +277,9 @@ def _of_sine(
 def _of_level(record: MeasuredRecord, command: MeasuredSignal, offset: float, amplitude: float) -> Iterator[Finding]:
     """Findings where offset or amplitude differ from the specified ones."""
     for what, wanted, got in (("offset", record.offset, offset), ("amplitude", record.amplitude, amplitude)):
-        if wanted is not None and abs(got - wanted) > _OFF * float(record.amplitude or abs(wanted) or 1.0):
+        if wanted is None:
+            continue
+        if abs(got - wanted) > _SETTINGS.level_error * float(record.amplitude or abs(wanted) or 1.0):
             yield finding(
                 FindingCode.LEVEL,
                 record.source,

@@ -5,12 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.identify.data_check.settings import LogCheckSettings
+
 Array = NDArray[np.float64]
 
-_LEAST = 4  # smallest number of equal extreme samples in a row
-_BESIDE = 6  # number of neighbouring runs on each side that show how noisy a signal is
-_EACH = 1.5  # samples: a signal with a smaller mean length of runs is noisy
-_JUMP = 1.5  # quantisation steps: a signal that comes to rest changes by single steps
+_SETTINGS = LogCheckSettings()
 
 
 def plateaus(values: Array, low: float, high: float) -> tuple[tuple[int, int], ...]:
@@ -33,15 +32,16 @@ def plateaus(values: Array, low: float, high: float) -> tuple[tuple[int, int], .
         return ()
     extreme = (levels == low) | (levels == high)
     entered, left = np.concatenate([[0.0], steps]), np.concatenate([steps, [0.0]])
-    cut = np.maximum(entered, left) > _JUMP * steps.min()
-    flat = extreme & (lengths >= _LEAST) & (cut | _lively(lengths, extreme))
+    cut = np.maximum(entered, left) > _SETTINGS.clipped_step * steps.min()
+    flat = extreme & (lengths >= _SETTINGS.fewest_equal) & (cut | _lively(lengths, extreme))
     return tuple((int(first), int(stop)) for first, stop in zip(starts[flat], ends[flat], strict=True))
 
 
 def _lively(lengths: NDArray[np.int64], extreme: NDArray[np.bool_]) -> NDArray[np.bool_]:
     """(n_r,) whether the signal changes at nearly every sample near each run; a chirp is slow in other parts."""
-    around = np.ones(2 * _BESIDE + 1)
+    beside = _SETTINGS.runs_beside
+    around = np.ones(2 * beside + 1)
     other = (~extreme).astype(np.float64)
-    counts = np.convolve(other, around, "full")[_BESIDE : _BESIDE + lengths.size]
-    total = np.convolve(other * lengths, around, "full")[_BESIDE : _BESIDE + lengths.size]
-    return np.asarray((counts > 0) & (total < _EACH * counts))
+    counts = np.convolve(other, around, "full")[beside : beside + lengths.size]
+    total = np.convolve(other * lengths, around, "full")[beside : beside + lengths.size]
+    return np.asarray((counts > 0) & (total < _SETTINGS.noisy_run * counts))

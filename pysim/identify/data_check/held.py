@@ -7,14 +7,13 @@ from enum import Enum, auto
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.identify.data_check.settings import LogCheckSettings
 from pysim.identify.logged.command import jumps
 from pysim.io.prepare.step import stands
 from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Record
 from pysim.types.record_kind import KINDS, Command
 
-_FEWEST = 20  # changes that show steps
-_STANDING = 0.9  # smallest share of its changes with an equal sample ahead
-_UNLIKE = 2.5  # ratio of its usual change to its smallest one; a rounded signal changes by one digit
+_SETTINGS = LogCheckSettings()
 
 
 class Between(Enum):
@@ -55,7 +54,8 @@ def _is_stepped(values: NDArray[np.float64], jumped: int) -> bool:
     """Whether a signal (n_t,) changes by any size, hardly ever at two samples in a row, and rarely by a jump."""
     change = np.diff(values[np.isfinite(values)])
     at = np.flatnonzero(change)
-    if at.size < max(_FEWEST, 2 * jumped):
+    if at.size < max(_SETTINGS.fewest_changes, _SETTINGS.changes_per_jump * jumped):
         return False
     size = np.abs(change[at])
-    return bool(np.mean(np.diff(at) > 1) >= _STANDING and np.median(size) > _UNLIKE * size.min())
+    waits = np.mean(np.diff(at) > 1) >= _SETTINGS.held_share
+    return bool(waits and np.median(size) > _SETTINGS.unlike_rounding * size.min())

@@ -11,12 +11,11 @@ import numpy as np
 
 from pysim.identify.data_check.check import DataCheck
 from pysim.identify.data_check.finding import Finding, FindingCode, finding
+from pysim.identify.data_check.settings import ModelCheckSettings
 from pysim.io.prepare import Flip, Rename, Step, logs_called
 from pysim.types import Dataset, Record
 
-_AS_GOOD = 2.0  # misfit with the step over the one with all these outputs turned, up to which it is the likelier cause
-_BETTER = 0.5  # the same where one output is turned alone, as this is as likely a cause
-_LEVEL = 0.1  # largest misfit of two signals with their names swapped, over the one without, that shows the swap
+_SETTINGS = ModelCheckSettings()
 
 Checked = tuple[DataCheck, Mapping[str, Record]]
 
@@ -43,7 +42,7 @@ def with_one_cause(found: DataCheck, answers: Mapping[str, Record], check: Calla
     def misfit(data: Dataset, its: Mapping[str, Record]) -> float:
         return _misfit(data, {source: answer for source, answer in its.items() if source in those})
 
-    allowed = _AS_GOOD if len(signs) > 1 else _BETTER
+    allowed = _SETTINGS.one_cause if len(signs) > 1 else _SETTINGS.one_output
     best, result = min(misfit(dataset, answers), allowed * misfit(Flip(outputs, logs).apply(dataset), answers)), found
     for step in steps:
         after, its = check(step)
@@ -62,7 +61,9 @@ def _swapped_by_level(found: DataCheck, answers: Mapping[str, Record]) -> DataCh
     outputs = [s.name for s in dataset.signals if s.role == "output"]
     for step in _swaps(dataset, outputs) if answers and not dataset.responses() else ():
         own = {*step.names}
-        if own & taken or _misfit(step.apply(dataset), answers, own) >= _LEVEL * _misfit(dataset, answers, own):
+        if own & taken:
+            continue
+        if _misfit(step.apply(dataset), answers, own) >= _SETTINGS.swapped_level * _misfit(dataset, answers, own):
             continue
         taken |= own
         findings = [
