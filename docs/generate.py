@@ -106,11 +106,12 @@ def _picture(effect: object, model: str, here: Path) -> str:
 def settings(here: Path) -> str:
     """Every number of the methods, with its unit, its meaning and its source."""
     from pysim.diagnosis import settings as diagnosis
+    from pysim.identify.data_check import settings as data_check
     from pysim.identify.greybox import settings as greybox
     from pysim.types.setting import settings_of
 
     parts = []
-    for module in (greybox, diagnosis):
+    for module in (data_check, greybox, diagnosis):
         for name, kind in vars(module).items():
             if inspect.isclass(kind) and kind.__module__ == module.__name__:
                 rows = [(code(s.name), s.value, s.unit, s.meaning, s.source) for s in settings_of(kind())]
