@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -33,25 +34,27 @@ def run(given: Given) -> int:
         return DONE
     if given.output:
         prepare_folder(given.output)
+    if given.record:
+        _check_commit()
     if given.json:
         numbers = prepare_file(given.json, "--json", (".json", ".jsonl"))
         if numbers.is_file():  # not a device, such as /dev/null
             numbers.unlink()
-    if given.record:
-        _check_commit()
-    checkout = _CLONE if given.record else None
+    results = _recorded(names) if given.record and not given.names else []
+    if results:
+        print(f"this commit recorded {len(results)} of {len(names)} cases before; name them to run them again")
+    names = [name for name in names if name not in {result.case for result in results}]
     show = _Show(len(names))
-    results = []
     for result in run_cases(names, show):
         show.finished(result)
         results.append(result)
         if given.json:
             append_results(given.json, [result])
+        if given.record:
+            print(f"  recorded in {record(_CLONE, [result])}")
     if given.output:
         write_page(given.output, results)
         print(f"wrote {given.output / 'report.html'}")
-    if checkout:
-        print(f"recorded {len(results)} cases in {record(checkout, results)}")
     return NO if any(result.verdict == FAILS for result in results) else DONE
 
 
@@ -87,6 +90,15 @@ def _check_clone() -> None:
         )
 
 
+def _recorded(names: Sequence[str]) -> list[CaseResult]:
+    """What this commit recorded of these cases, so that a run that was stopped goes on."""
+    from fmu_build.version import this_commit
+    from validation.results import read_results
+
+    commit, kept = this_commit(), read_results(_CLONE / "validation" / "recorded.jsonl")
+    return [result for result in kept if result.commit == commit and result.case in names]
+
+
 def _check_commit() -> None:
     """Raise BadInput where a record could not say which code it is of."""
     from fmu_build.version import this_commit
@@ -108,6 +120,6 @@ COMMAND = Command(
         switch("--list", "say which cases there are, and run none"),
         Option(("-o", "--output"), "write report.html, summary.md and pictures here", "DIR", convert=Path),
         Option(("--json",), "write all numbers here, a line of JSON per case", "FILE", convert=Path),
-        switch("--record", "keep the results in the checkout, and write its summary anew"),
+        switch("--record", "keep the results in the checkout; a run of all cases that was stopped goes on"),
     ),
 )

@@ -76,6 +76,25 @@ def test_record(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert "| [good](good/README.md) | about good | 1 | 0 | 1 |  |" in written
 
 
+def test_a_run_of_all_cases_goes_on_where_it_was_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "validation").mkdir()
+    monkeypatch.setattr(validate, "_CLONE", tmp_path)
+    commit = ["0123456789ab"]
+    for module in ("fmu_build.version", "validation.suite"):
+        monkeypatch.setattr(f"{module}.this_commit", lambda: commit[0])
+    out = tmp_path / "runs.json"
+
+    def ran() -> int:
+        main(["validate", "--quick", "--record", "--json", str(out)])
+        return len(read_results(out))
+
+    assert main(["validate", "good", "--record"]) == 0
+    first = ran()
+    assert ran() == 0
+    commit[0] = "ba9876543210"
+    assert ran() == first + 1
+
+
 @pytest.mark.parametrize("commit", ["", "0123456789ab-dirty"])
 def test_nothing_is_recorded_that_no_commit_stands_for(
     commit: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
