@@ -13,7 +13,7 @@ from pysim.bench.plan import Plan
 from pysim.bench.sensor import Sensor
 from pysim.excitation import Chirp, LeadIn, LineGrid, Multisine, PiersonMoskowitz, Step, StochasticWave
 from pysim.io import SI, SIGNAL_KEYS, Section, described_signal, read_toml, signal_in_si
-from pysim.types import BadInput, MeasuredSignal, with_place
+from pysim.types import MeasuredSignal, with_place
 from pysim.types.dataset import USES
 from pysim.types.record_kind import STEPPED_SINE
 
@@ -73,7 +73,7 @@ def _follows(sections: Mapping[str, Section], signals: Mapping[str, MeasuredSign
     found = {}
     for name, section in sections.items():
         if ("follows" in section.values) != ("ratio" in section.values):
-            raise BadInput(f"{section.place}: follows and ratio go together; give both, or none")
+            raise section.error("follows and ratio go together; give both, or none")
         if "follows" in section.values:
             inputs = tuple(s.name for s in signals.values() if s.role == "input" and s.name != name)
             other = section.text("follows", among=inputs)
@@ -93,7 +93,7 @@ def _logger(section: Section) -> Logger:
     """One rate for all logs, or rates by the number of measured signals."""
     section.refuse_unknown(("rate", "rates", "jitter", "tick"))
     if ("rate" in section.values) == ("rates" in section.values):
-        raise BadInput(f"{section.place}: give rate = Hz, or rates = [[signals, Hz], ...], one of them")
+        raise section.error("give rate = Hz, or rates = [[signals, Hz], ...], one of them")
     rates = section.pairs("rates") if "rates" in section.values else ((1, section.number("rate")),)
     jitter, tick = (section.not_negative(key) or 0.0 for key in ("jitter", "tick"))
     return with_place(section.place, lambda: Logger(tuple((int(count), rate) for count, rate in rates), jitter, tick))
@@ -111,7 +111,7 @@ def _test(section: Section, signals: Mapping[str, MeasuredSignal], inputs: tuple
     keys, make = _KINDS[kind]
     section.refuse_unknown((*_COMMON, *keys))
     if len(inputs) != 1 and "input" not in section.values:
-        raise BadInput(f"{section.place}: {len(inputs)} signals are inputs; say which one is driven: input = ...")
+        raise section.error(f"{len(inputs)} signals are inputs; say which one is driven: input = ...")
     driven = section.text("input", inputs[0] if inputs else None, among=inputs)
     common: dict[str, Any] = {"input": driven, "outputs": section.texts("outputs")}
     common |= {"use": section.text("use", "fit", among=USES)}
@@ -138,7 +138,7 @@ def _chirp(section: Section, unit: float, lead: LeadIn, common: dict[str, Any]) 
 def _wave(section: Section, unit: float, lead: LeadIn, common: dict[str, Any]) -> BenchTest:
     band = section.numbers("band_hz") if "band_hz" in section.values else None
     if band is not None and len(band) != 2:
-        raise BadInput(f"{section.place}: band_hz needs two numbers, lowest and highest frequency")
+        raise section.error("band_hz needs two numbers, lowest and highest frequency")
     command = StochasticWave(
         PiersonMoskowitz(unit * section.number("significant_height"), section.number("peak_period")),
         section.number("length"),

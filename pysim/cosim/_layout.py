@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from pysim.cosim.member import Array, Member
 from pysim.cosim.sampled import Sampled
@@ -128,14 +127,3 @@ class Row:
     def part(self, slots: slice) -> Array:
         """A view of some slots, contiguous and writable."""
         return self.array[slots]
-
-
-def indices(wires: Iterable[Wire]) -> tuple[NDArray[np.intp], NDArray[np.intp], Array, Array]:
-    """Targets, sources, factors and offsets of wires as arrays."""
-    row = list(wires)
-    return (
-        np.array([w.target for w in row], dtype=np.intp),
-        np.array([w.source for w in row], dtype=np.intp),
-        np.array([w.factor for w in row]),
-        np.array([w.offset for w in row]),
-    )

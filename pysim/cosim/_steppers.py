@@ -5,21 +5,22 @@ from __future__ import annotations
 from typing import Any
 
 from pysim.cosim._core import Core
-from pysim.cosim._lines import Driven, Lines
+from pysim.cosim._lines import Inputs, Lines
 from pysim.cosim._sweep import Sweep
 
 
 class Held:
-    """Inputs from other parts are what the communication point left in the row."""
+    """Inputs from other parts are what the communication point left in the row; signals, known ahead, run as lines."""
 
     memory: Any = None
     lines = False
 
     def __init__(self, core: Core, sweep: Sweep) -> None:
-        driven = Driven(core)
+        first, begins, toward = len(core.layout.outputs), core.row.view, core.signals.toward
+        driven, others = Inputs(core, core.layout.members, first), [0.0] * first
 
         def along(time: float, end: float, tick: int | None = None) -> float:
-            driven.hold(time, end, tick)
+            driven.hold(begins, others + toward(time, end, tick), end - time)
             return sweep(time, end)
 
         self.advance = along if driven.some else sweep.__call__

@@ -33,20 +33,11 @@ class Iterated:
 
     rtol: float = 1e-8
     limit: int = 50
+    accuracy, solves_loops = 2, True  # see Order
 
     def __post_init__(self) -> None:
         if not (self.rtol > 0 and self.limit > 0):
             raise BadInput(f"iterated: rtol = {self.rtol}, limit = {self.limit}; give positive numbers")
-
-    @property
-    def accuracy(self) -> int:
-        """Second order."""
-        return 2
-
-    @property
-    def solves_loops(self) -> bool:
-        """Yes."""
-        return True
 
     def stepper(self, core: Core) -> Stepper:
         """Start to work.

@@ -21,16 +21,12 @@ class Jacobi:
     """
 
     lines: bool = False
+    solves_loops = False  # see Order
 
     @property
     def accuracy(self) -> int:
         """First order; with lines, second."""
         return 2 if self.lines else 1
-
-    @property
-    def solves_loops(self) -> bool:
-        """No."""
-        return False
 
     def stepper(self, core: Core) -> Stepper:
         """Start to work."""

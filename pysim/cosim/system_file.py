@@ -69,7 +69,7 @@ def read_system_file(path: Path | str, *, stop: float | None = None, step: float
     run.refuse_unknown(_RUN)
     size = run.positive("step") if step is None else step
     if size is None:
-        raise BadInput(f"{run.place}: step is missing; write step = and the seconds between two communication points")
+        raise run.error("step is missing; write step = and the seconds between two communication points")
     parts = [_member(name, section, path.parent, size) for name, section in toml.tables("members").items()]
     wires = toml.rows("connections", "connection") if "connections" in toml.whole.values else ()
     members = with_place(str(path), lambda: wired(parts, [(one.text("from"), one.text("to")) for one in wires]))
@@ -101,7 +101,7 @@ def _check_driven(path: Path, system: System, experiment: Experiment) -> None:
 def _member(name: str, section: Section, folder: Path, step: float) -> Any:
     kinds = [key for key in ("fmu", "block", "member") if key in section.values]
     if len(kinds) != 1:
-        raise BadInput(f'{section.place}: say what {name} is: fmu = "FILE.fmu", block = "CLASS" or member = "CLASS"')
+        raise section.error(f'say what {name} is: fmu = "FILE.fmu", block = "CLASS" or member = "CLASS"')
     if kinds == ["block"]:
         return _block(name, section, folder, step)
     return {"fmu": _fmu, "member": _other}[kinds[0]](name, section, folder)
@@ -169,7 +169,7 @@ def _order(run: Section) -> Order:
     name, lines = run.text("order", "jacobi", among=_ORDERS), run.flag("lines", False)
     if name == "iterated":
         if lines:
-            raise BadInput(f"{run.place}: iterated steps join the inputs' values by lines anyhow; remove lines")
+            raise run.error("iterated steps join the inputs' values by lines anyhow; remove lines")
         return Iterated()
     if name == "gauss-seidel":
         return GaussSeidel(run.texts("sequence") if "sequence" in run.values else (), lines)
@@ -185,8 +185,8 @@ def _experiment(toml: TomlFile, run: Section, system: System, step: float, stop:
     start, end = run.optional_number("start") or 0.0, run.number("stop") if stop is None else stop
     every = run.positive("rows_every") or step
     if not start + every <= end:
-        raise BadInput(f"{run.place}: no row lies between start = {start:g} s and stop = {end:g} s; move the stop")
-    rows = row_times(start, end, step, every, f"{run.place}: ")
+        raise run.error(f"no row lies between start = {start:g} s and stop = {end:g} s; move the stop")
+    rows = row_times(start, end, step, every)
     record = run.texts("record") if "record" in run.values else tuple(system.outputs)
     overrides = _numbers(_table(toml, "overrides"))
     return Experiment(rows, record, _inputs(toml), overrides, start)
@@ -206,7 +206,7 @@ def _signal(value: Any, place: str, toml: TomlFile) -> Signal:
     if isinstance(value, str):
         return with_place(place, lambda: read_signal(toml.path.parent / value, place))
     if isinstance(value, bool) or not isinstance(value, (int, float)):
-        raise BadInput(f'{place} is {value!r}; write a number, or the name of a file as "reference.csv"')
+        raise BadInput(f'{value!r} is no number; write one, or the name of a file as "reference.csv"', where=place)
     return with_place(place, lambda: Signal.constant(float(value)))
 
 

@@ -38,7 +38,7 @@ class LawRefused(BadInput):
     """What is wrong in the text of a law, and at which of its letters; `what` leaves out where that is."""
 
     def __init__(self, where: str, what: str, place: int) -> None:
-        super().__init__(f"{where}: {what}", argument="law")
+        super().__init__(what, argument="law", where=where)
         self.what, self.place = what, place
 
 

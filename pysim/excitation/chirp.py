@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pysim.excitation._check import check_finite, check_not_negative, check_positive
-from pysim.excitation.lead_in import LeadIn
+from pysim.excitation.lead_in import BehindLeadIn, LeadIn
 from pysim.types import BadInput, Signal
 
 
 @dataclass(frozen=True)
-class Chirp:
+class Chirp(BehindLeadIn):
     """amplitude sin(2 pi (start_hz + rate/2 s) s) + offset, s = t - onset, behind a lead-in.
 
     Args:
@@ -55,19 +55,9 @@ class Chirp:
         return max(self.start_hz, self.stop_hz)
 
     @property
-    def onset(self) -> float:
-        """When the sweep starts, s."""
-        return self.lead.onset
-
-    @property
     def end(self) -> float:
         """When the sweep stops, s."""
         return self.onset + self.sweep
-
-    @property
-    def duration(self) -> float:
-        """Of the whole test, s."""
-        return self.end + self.lead.ramp_down
 
     def signal(self) -> Signal:
         """The command, in its unit."""

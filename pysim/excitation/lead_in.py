@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from pysim.excitation._check import check_not_negative
+from pysim.excitation.excitation import Excitation
 from pysim.types import BadInput, Signal
 
 Array = NDArray[np.float64]
@@ -89,6 +91,22 @@ class LeadIn:
             return [(end, np.array([last, 0.0, 0.0, 0.0]), nothing)]
         slope = np.array([last, -last / self.ramp_down, 0.0, 0.0])
         return [(end, slope, nothing), (end + self.ramp_down, np.zeros(4), nothing)]
+
+
+class BehindLeadIn(Excitation, Protocol):
+    """An excitation behind a lead-in: it begins where that ends, and the test is over when the command is at zero."""
+
+    lead: LeadIn
+
+    @property
+    def onset(self) -> float:
+        """When the excitation proper begins, s."""
+        return self.lead.onset
+
+    @property
+    def duration(self) -> float:
+        """Of the whole test, s."""
+        return self.end + self.lead.ramp_down
 
 
 def _between(body: Signal, first: float, end: float) -> list[tuple[float, Array, Array]]:

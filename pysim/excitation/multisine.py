@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pysim.excitation._check import check_finite, check_positive, check_seed
 from pysim.excitation._waves import largest_value, start_in_hold, wave_signal
-from pysim.excitation.lead_in import LeadIn
+from pysim.excitation.lead_in import BehindLeadIn, LeadIn
 from pysim.excitation.line_grid import LineGrid
 from pysim.types import BadInput, Signal
 
@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Multisine:
+class Multisine(BehindLeadIn):
     """Sines on the excited lines of a grid, phases drawn evenly from [0, 2 pi), around an offset.
 
     Args:
@@ -70,19 +70,9 @@ class Multisine:
         return self.grid.period
 
     @property
-    def onset(self) -> float:
-        """When the first whole period starts, s."""
-        return self.lead.onset
-
-    @property
     def end(self) -> float:
         """When the wave stops, s."""
         return self.onset + self.periods * self.period
-
-    @property
-    def duration(self) -> float:
-        """Of the whole test, s."""
-        return self.end + self.lead.ramp_down
 
     @property
     def highest_hz(self) -> float:

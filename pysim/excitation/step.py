@@ -5,12 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from pysim.excitation._check import check_finite, check_positive
-from pysim.excitation.lead_in import LeadIn
+from pysim.excitation.lead_in import BehindLeadIn, LeadIn
 from pysim.types import BadInput, Signal
 
 
 @dataclass(frozen=True)
-class Step:
+class Step(BehindLeadIn):
     """From `offset` to `offset + height` at the onset, and back again where asked for.
 
     Args:
@@ -47,19 +47,9 @@ class Step:
         return 0.0
 
     @property
-    def onset(self) -> float:
-        """When the first step happens, s."""
-        return self.lead.onset
-
-    @property
     def end(self) -> float:
         """When the last level ends, s."""
         return self.onset + self.length * (2 if self.back else 1)
-
-    @property
-    def duration(self) -> float:
-        """Of the whole test, s."""
-        return self.end + self.lead.ramp_down
 
     def signal(self) -> Signal:
         """The command, in its unit."""

@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from pysim.excitation._check import check_finite, check_positive
-from pysim.excitation.lead_in import LeadIn
+from pysim.excitation.lead_in import BehindLeadIn, LeadIn
 from pysim.types import BadInput, Signal
 
 
 @dataclass(frozen=True)
-class SteppedSineCommand:
+class SteppedSineCommand(BehindLeadIn):
     """amplitude sin(2 pi frequency (t - onset)) + offset behind a lead-in.
 
     Args:
@@ -46,19 +46,9 @@ class SteppedSineCommand:
         return self.frequency
 
     @property
-    def onset(self) -> float:
-        """When the sine starts, s."""
-        return self.lead.onset
-
-    @property
     def end(self) -> float:
         """When the sine stops, s."""
         return self.onset + self.periods / self.frequency
-
-    @property
-    def duration(self) -> float:
-        """Of the whole test, s."""
-        return self.end + self.lead.ramp_down
 
     def signal(self) -> Signal:
         """The command, in its unit."""

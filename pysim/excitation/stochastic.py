@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from pysim.excitation._check import check_finite, check_positive, check_seed, check_sines
 from pysim.excitation._waves import start_in_hold, wave_signal
-from pysim.excitation.lead_in import LeadIn
+from pysim.excitation.lead_in import BehindLeadIn, LeadIn
 from pysim.excitation.spectrum import PiersonMoskowitz
 from pysim.types import BadInput, Signal
 
@@ -22,7 +22,7 @@ _BELOW, _ABOVE = 1e-5, 1e-3
 
 
 @dataclass(frozen=True)
-class StochasticWave:
+class StochasticWave(BehindLeadIn):
     """A sum of sines of evenly divided frequencies whose phases are drawn from a seed.
 
     Args:
@@ -63,19 +63,9 @@ class StochasticWave:
             raise BadInput(f"stochastic wave: a band from {self.band_hz[0]:g} to {self.band_hz[1]:g} Hz is empty")
 
     @property
-    def onset(self) -> float:
-        """When the wave has its drawn phases, s."""
-        return self.lead.onset
-
-    @property
     def end(self) -> float:
         """When the wave stops, s."""
         return self.onset + self.length
-
-    @property
-    def duration(self) -> float:
-        """Of the whole test, s."""
-        return self.end + self.lead.ramp_down
 
     @property
     def edges(self) -> Array:

@@ -109,8 +109,8 @@ def _counted(section: Section, before: int, log: MeasuredRecord) -> int:
     data = log.data
     numbers = before + (data.time.size + data.values.size if isinstance(data, Record) else 0)
     if numbers > LIMITS.dataset_numbers:
-        raise BadInput(
-            f"{section.place}: with this log the data set holds {numbers} numbers, and {LIMITS.dataset_numbers} at "
+        raise section.error(
+            f"with this log the data set holds {numbers} numbers, and {LIMITS.dataset_numbers} at "
             "most are read; write fewer samples a second, or leave logs out"
         )
     return numbers
@@ -140,16 +140,16 @@ def described_signal(name: str, section: Section, units: Sequence[str] = tuple(S
         BadInput: a missing or wrong key, or the name of the clock.
     """
     if name == TIME:
-        raise BadInput(
-            f"{section.place}: {TIME} is the clock of every log and no signal; remove the section, and where it is not "
+        raise section.error(
+            f"{TIME} is the clock of every log and no signal; remove the section, and where it is not "
             'in s write time_unit = "ms" or another below [dataset]'
         )
     unit = section.text("unit")
     if unit not in units:
-        raise BadInput(f"{section.place}: unit = {unit!r} is not known; {unit_cure(unit, units)}")
+        raise section.error(f"unit = {unit!r} is not known; {unit_cure(unit, units)}")
     role = section.text("role", among=("input", "output"))
     if "hold" in section.values and role == "output":
-        raise BadInput(f"{section.place}: hold is for inputs, and this is an output; remove it")
+        raise section.error("hold is for inputs, and this is an output; remove it")
     return MeasuredSignal(
         name=name,
         role=role,
@@ -166,7 +166,7 @@ def _scale(unit: str, section: Section) -> Scale:
     """How a column of that signal becomes a signal in SI."""
     factor, offset = section.optional_number("factor"), section.optional_number("offset")
     if factor == 0:
-        raise BadInput(f"{section.place}: factor cannot be 0; write how many {unit} one in the column is")
+        raise section.error(f"factor cannot be 0; write how many {unit} one in the column is")
     return Scale.of(unit, 1.0 if factor is None else factor, offset or 0.0)
 
 
@@ -177,7 +177,7 @@ def _kind(section: Section) -> str:
     for idle in _LOG_ONLY if kind == RESPONSE_TABLE.name else _TABLE_ONLY:
         if idle in section.values:
             cure = "remove it, or correct the kind"
-            raise BadInput(f'{section.place}: {idle} means nothing where kind = "{kind}"; {cure}')
+            raise section.error(f'{idle} means nothing where kind = "{kind}"; {cure}')
     return kind
 
 
@@ -187,5 +187,5 @@ def _refuse_repeated(sections: tuple[Section, ...]) -> None:
     for section in sections:
         key = (PurePosixPath(section.source()).as_posix(), *section.texts("columns", repeatable=LEFT_OUT))
         if key in seen:
-            raise BadInput(f"{section.place}: {key[0]} is the record of {seen[key]} already; name each file once")
+            raise section.error(f"{key[0]} is the record of {seen[key]} already; name each file once")
         seen[key] = section.place.rpartition(", ")[2]

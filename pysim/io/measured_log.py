@@ -111,18 +111,17 @@ def _check_columns(
         cure = "name the column that holds it in s"
         if names_its_columns(Path(source)):
             cure = f'write "{TIME}" for the clock there, and {TIME} = "..." for what the file calls it'
-        raise BadInput(f'{section.place}: columns names no "{TIME}"; {cure}')
+        raise section.error(f'columns names no "{TIME}"; {cure}')
     for name in names:
         if name != TIME and name not in signals:
-            raise BadInput(
-                f"{section.place}: the column {name!r} is no signal; add [signals.{name}] with role and unit, "
+            raise section.error(
+                f"the column {name!r} is no signal; add [signals.{name}] with role and unit, "
                 f"or correct the name to one of {', '.join((TIME, *signals))}"
             )
     for role in ("input", "output"):
         if not any(signals[name].role == role for name in names if name != TIME):
-            raise BadInput(
-                f"{section.place}: none of the columns {', '.join(names)} is an {role}; "
-                f'log one too, or give its signal role = "{role}"'
+            raise section.error(
+                f'none of the columns {", ".join(names)} is an {role}; log one too, or give its signal role = "{role}"'
             )
 
 
@@ -130,14 +129,12 @@ def _clock(section: Section, source: str, names: tuple[str, ...]) -> str:
     """What the file calls its time."""
     clock = section.text(TIME, TIME)
     if TIME in section.values and not names_its_columns(Path(source)):
-        raise BadInput(
-            f"{section.place}: {TIME} = {clock!r} means nothing where columns go by their order, as in {source}; "
+        raise section.error(
+            f"{TIME} = {clock!r} means nothing where columns go by their order, as in {source}; "
             f'remove it, and write "{TIME}" in its place in columns'
         )
     if clock != TIME and clock in names:
-        raise BadInput(
-            f'{section.place}: columns names {clock!r} beside "{TIME}", which is the same; remove the one or the other'
-        )
+        raise section.error(f'columns names {clock!r} beside "{TIME}", which is the same; remove the one or the other')
     return clock
 
 
@@ -147,9 +144,7 @@ def _command(section: Section, names: tuple[str, ...], signals: Mapping[str, Mea
     if "input" in section.values:
         return section.text("input", among=inputs)
     if len(inputs) > 1 and any(key in section.values for key in ("offset", "amplitude")):
-        raise BadInput(
-            f"{section.place}: offset and amplitude of which input, {' or '.join(inputs)}? Say it: input = ..."
-        )
+        raise section.error(f"offset and amplitude of which input, {' or '.join(inputs)}? Say it: input = ...")
     return inputs[0] if len(inputs) == 1 else None
 
 
@@ -157,11 +152,10 @@ def _test(section: Section, kind: str, scale: Scale) -> tuple[float | None, floa
     """Offset and amplitude in SI units or %, and the frequency in Hz, as far as stated."""
     for key in KINDS[kind].needs:
         if key not in section.values:
-            raise BadInput(f'{section.place}: {key} is missing, and kind = "{kind}" needs it; write {key} = a number')
+            raise section.error(f'{key} is missing, and kind = "{kind}" needs it; write {key} = a number')
     if "frequency" in section.values and kind != STEPPED_SINE.name:
-        raise BadInput(
-            f'{section.place}: frequency belongs to kind = "{STEPPED_SINE.name}", and this is "{kind}"; '
-            "remove it, or correct the kind"
+        raise section.error(
+            f'frequency belongs to kind = "{STEPPED_SINE.name}", and this is "{kind}"; remove it, or correct the kind'
         )
     offset, amplitude = section.optional_number("offset"), section.positive("amplitude")
     offset = None if offset is None else scale.number(offset)

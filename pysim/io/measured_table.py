@@ -9,7 +9,7 @@ from pysim.io.response_table import TABLE_COLUMNS, read_response
 from pysim.io.text_fields import LEFT_OUT
 from pysim.io.toml_section import Section
 from pysim.io.units import Scale
-from pysim.types import BadInput, MeasuredRecord, MeasuredSignal, SineTest
+from pysim.types import MeasuredRecord, MeasuredSignal, SineTest
 from pysim.types.dataset import USES
 from pysim.types.record_kind import RESPONSE_TABLE
 
@@ -33,7 +33,7 @@ def read_measured_table(folder: Path, section: Section, signals: Mapping[str, Me
     use = section.text("use", "fit", among=USES)
     names = section.texts("columns", repeatable=LEFT_OUT)
     if any(name not in names for name in TABLE_COLUMNS):
-        raise BadInput(f"{section.place}: columns must name {', '.join(TABLE_COLUMNS)}, in the order of the file")
+        raise section.error(f"columns must name {', '.join(TABLE_COLUMNS)}, in the order of the file")
     origin = section.text("origin", f"measured, {source}")
     scale = Scale.of(signals[output].unit).gain / driven.gain
     response = read_response(folder / source, names, test, section.place, scale=scale, origin=origin)
@@ -46,8 +46,8 @@ def _signal_of_role(section: Section, role: str, signals: tuple[MeasuredSignal, 
     if role in section.values:
         return section.text(role, among=names)
     if len(names) != 1:
-        raise BadInput(
-            f'{section.place}: a response needs one {role}, and {len(names)} signals have role = "{role}"; '
+        raise section.error(
+            f'a response needs one {role}, and {len(names)} signals have role = "{role}"; '
             f"give one signal that role, or name it in the record: {role} = ..."
         )
     return names[0]

@@ -57,7 +57,7 @@ def read_record(path: Path | str) -> Record:
     try:
         return form[1](path)
     except BadInput as error:
-        raise error if str(path) in str(error) else BadInput(f"{path}: {error}") from error
+        raise error if error.where else BadInput(str(error), where=str(path)) from error
     except OSError as error:
         raise BadInput(f"{path}: cannot be read ({error.strerror})") from error
     except (*DAMAGED, KeyError, TypeError, ValueError) as error:
@@ -125,13 +125,12 @@ def _from_csv(path: Path) -> Record:
     skipped = 1 if lines and lines[0].startswith("#") else 0
     rows = list(csv.reader(lines[skipped:]))
     headings = [_HEADING.fullmatch(text) for text in rows[0]] if rows else []
+    head = f"{path}, line {skipped + 1}"
     if len(headings) < 2 or not all(headings):
-        raise BadInput(f"{path}, line {skipped + 1}: column names like 'time [s],alpha [deg]' must stand here")
+        raise BadInput("column names like 'time [s],alpha [deg]' must stand here", where=head)
     if rows[0][0] != _TIME:
-        raise BadInput(
-            f"{path}, line {skipped + 1}: the first column is {rows[0][0]!r}, and {_TIME!r} belongs there; "
-            "put the times first, in s"
-        )
+        cure = "put the times first, in s"
+        raise BadInput(f"the first column is {rows[0][0]!r}, and {_TIME!r} belongs there; {cure}", where=head)
     numbers = np.array([_numbers(path, skipped + i, row, len(headings)) for i, row in enumerate(rows[1:], start=2)])
     numbers = numbers.reshape(-1, len(headings))
     columns = [heading for heading in headings[1:] if heading is not None]
@@ -160,9 +159,9 @@ def _numbers(path: Path, line: int, row: list[str], width: int) -> list[float]:
     try:
         numbers = [float(text) for text in row]
     except ValueError as error:
-        raise BadInput(f"{path}, line {line}: {error}; every entry must be a number") from error
+        raise BadInput(f"{error}; every entry must be a number", where=f"{path}, line {line}") from error
     if len(numbers) != width:
-        raise BadInput(f"{path}, line {line}: {len(numbers)} entries, but {width} columns are named")
+        raise BadInput(f"{len(numbers)} entries, but {width} columns are named", where=f"{path}, line {line}")
     return numbers
 
 

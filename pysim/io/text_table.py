@@ -45,14 +45,18 @@ def read_text(path: Path, wanted_by: str) -> str:
         BadInput: the file cannot be read, or is no text.
     """
     if path.is_fifo() or path.is_char_device():
-        raise BadInput(f"{wanted_by}: {path} is a pipe or a device, which may never end; write it into a file first")
+        raise BadInput(
+            f"{path} is a pipe or a device, which may never end; write it into a file first", where=wanted_by
+        )
     try:
         raw = path.read_bytes()
     except OSError as error:
         reason = error.strerror or type(error).__name__
-        raise BadInput(f"{wanted_by}: cannot read {path} ({reason}); correct the name or put the file there") from error
+        raise BadInput(
+            f"cannot read {path} ({reason}); correct the name or put the file there", where=wanted_by
+        ) from error
     if b"\0" in raw and raw[:2] not in _UTF_16:
-        raise BadInput(f"{wanted_by}: {path} is no text file; export it as text, such as .csv")
+        raise BadInput(f"{path} is no text file; export it as text, such as .csv", where=wanted_by)
     try:
         text = raw.decode("utf-16" if raw[:2] in _UTF_16 else "utf-8-sig")
     except UnicodeDecodeError:
@@ -61,7 +65,7 @@ def read_text(path: Path, wanted_by: str) -> str:
     long = _LONG.search(text)
     if long:
         line = text.count("\n", 0, long.start()) + 1
-        raise BadInput(f"{wanted_by}: {path}, line {line} is longer than a million characters; break it into rows")
+        raise BadInput(f"{path}, line {line} is longer than a million characters; break it into rows", where=wanted_by)
     return text
 
 
@@ -128,8 +132,9 @@ def _refuse_other_order(
                 for head, name in zip(small, wanted, strict=True)
             ):
                 raise BadInput(
-                    f"{path}, line {at}: the header has the columns in the order {', '.join(heads)}, and {wanted_by} "
-                    f"in the order {', '.join(columns)}; correct the one that is wrong"
+                    f"the header has the columns in the order {', '.join(heads)}, and {wanted_by} in the order "
+                    f"{', '.join(columns)}; correct the one that is wrong",
+                    where=f"{path}, line {at}",
                 )
 
 

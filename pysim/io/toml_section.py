@@ -38,27 +38,31 @@ class Section:
     place: str
     values: dict[str, Any]
 
+    def error(self, sentence: str) -> BadInput:
+        """What is wrong with it."""
+        return BadInput(sentence, where=self.place)
+
     def text(self, key: str, default: str | None = None, *, among: tuple[str, ...] = ()) -> str:
         """A string, one of `among` where that is not empty."""
         value = self.values.get(key, default)
         if not isinstance(value, str) or not value:
-            raise BadInput(f'{self.place}: {key} is missing or no text; write {key} = "..."')
+            raise self.error(f'{key} is missing or no text; write {key} = "..."')
         if among and value not in among:
-            raise BadInput(f"{self.place}: {key} = {value!r} is not known; use one of {', '.join(among)}")
+            raise self.error(f"{key} = {value!r} is not known; use one of {', '.join(among)}")
         return value
 
     def source(self) -> str:
         """The file a record names, with / between folders whatever the system."""
         name = self.text("file")
         if not name.isprintable():  # TOML reads the \t of logs\test.txt as a tab
-            raise BadInput(f"{self.place}: file = {name!r} is no name; write / between folders")
+            raise self.error(f"file = {name!r} is no name; write / between folders")
         return log_source(name)
 
     def number(self, key: str) -> float:
         """A finite number that must be there."""
         value = self.optional_number(key)
         if value is None:
-            raise BadInput(f"{self.place}: {key} is missing; write {key} = and a number")
+            raise self.error(f"{key} is missing; write {key} = and a number")
         return value
 
     def optional_number(self, key: str) -> float | None:
@@ -67,7 +71,7 @@ class Section:
         if value is None:
             return None
         if not _is_number(value):
-            raise BadInput(f"{self.place}: {key} = {_short(value)} is no finite number; write {key} = and a number")
+            raise self.error(f"{key} = {_short(value)} is no finite number; write {key} = and a number")
         return float(value)
 
     def moment(self, key: str) -> float | None:
@@ -79,40 +83,38 @@ class Section:
         if isinstance(value, datetime):
             return (value if value.tzinfo else value.replace(tzinfo=UTC)).timestamp()
         if value is not None and not _is_number(value):
-            raise BadInput(
-                f"{self.place}: {key} = {_short(value)} is no moment; write a number of s, or 2026-03-01T14:05:00"
-            )
+            raise self.error(f"{key} = {_short(value)} is no moment; write a number of s, or 2026-03-01T14:05:00")
         return None if value is None else float(value)
 
     def positive(self, key: str) -> float | None:
         """A number above zero, or None where the key is absent."""
         value = self.optional_number(key)
         if value is not None and value <= 0:
-            raise BadInput(f"{self.place}: {key} must be positive, got {value:g}; correct it")
+            raise self.error(f"{key} must be positive, got {value:g}; correct it")
         return value
 
     def not_negative(self, key: str) -> float | None:
         """A number from zero on, or None where the key is absent."""
         value = self.optional_number(key)
         if value is not None and value < 0:
-            raise BadInput(f"{self.place}: {key} cannot be negative, got {value:g}; correct it")
+            raise self.error(f"{key} cannot be negative, got {value:g}; correct it")
         return value
 
     def texts(self, key: str, *, repeatable: str = "") -> tuple[str, ...]:
         """A row of strings that must be there, different but for the `repeatable` one."""
         values = self.values.get(key)
         if not isinstance(values, list) or not values or any(not isinstance(v, str) or not v for v in values):
-            raise BadInput(f'{self.place}: {key} is missing or no row of texts; write {key} = ["...", "..."]')
+            raise self.error(f'{key} is missing or no row of texts; write {key} = ["...", "..."]')
         for value in values:
             if values.count(value) > 1 and value != repeatable:
-                raise BadInput(f"{self.place}: {key} names {value!r} {values.count(value)} times; name it once")
+                raise self.error(f"{key} names {value!r} {values.count(value)} times; name it once")
         return tuple(values)
 
     def numbers(self, key: str) -> tuple[float, ...]:
         """A row of finite numbers that must be there."""
         values = self.values.get(key)
         if not isinstance(values, list) or not values or not all(_is_number(value) for value in values):
-            raise BadInput(f"{self.place}: {key} is missing or no row of numbers; write {key} = [1.0, 2.0]")
+            raise self.error(f"{key} is missing or no row of numbers; write {key} = [1.0, 2.0]")
         return tuple(float(value) for value in values)
 
     def pairs(self, key: str) -> tuple[tuple[float, float], ...]:
@@ -120,44 +122,44 @@ class Section:
         values = self.values.get(key)
         rows = values if isinstance(values, list) else []
         if not rows or not all(isinstance(r, list) and len(r) == 2 and all(map(_is_number, r)) for r in rows):
-            raise BadInput(f"{self.place}: {key} is missing or no row of pairs; write {key} = [[1.0, 2.0], [3.0, 4.0]]")
+            raise self.error(f"{key} is missing or no row of pairs; write {key} = [[1.0, 2.0], [3.0, 4.0]]")
         return tuple((float(first), float(second)) for first, second in rows)
 
     def integer(self, key: str, default: int | None = None, *, least: int | None = None) -> int:
         """A whole number, not below `least`; one that must be there where there is no default."""
         value = self.values.get(key, default)
         if isinstance(value, bool) or not isinstance(value, int):
-            raise BadInput(f"{self.place}: {key} is missing or no whole number; write {key} = 1")
+            raise self.error(f"{key} is missing or no whole number; write {key} = 1")
         if least is not None and value < least:
-            raise BadInput(f"{self.place}: {key} cannot be below {least}, got {value}; correct it")
+            raise self.error(f"{key} cannot be below {least}, got {value}; correct it")
         return value
 
     def flag(self, key: str, default: bool) -> bool:
         """true or false."""
         value = self.values.get(key, default)
         if not isinstance(value, bool):
-            raise BadInput(f"{self.place}: {key} = {value!r} is neither true nor false; write one of them")
+            raise self.error(f"{key} = {value!r} is neither true nor false; write one of them")
         return value
 
     def inner(self, key: str) -> Section:
         """A table within this one, empty where the key is absent."""
         value = self.values.get(key, {})
         if not isinstance(value, dict):
-            raise BadInput(f"{self.place}: {key} = {value!r} is no table; write {key} = {{ name = value }}")
+            raise self.error(f"{key} = {value!r} is no table; write {key} = {{ name = value }}")
         return Section(f"{self.place}, {key}", value)
 
     def rows_of(self, key: str) -> tuple[Section, ...]:
         """The tables of a row of tables within this one, none where the key is absent."""
         rows = self.values.get(key, [])
         if not isinstance(rows, list) or not all(isinstance(row, dict) for row in rows):
-            raise BadInput(f'{self.place}: {key} is no row of tables; write {key} = [{{ step = "..." }}]')
+            raise self.error(f'{key} is no row of tables; write {key} = [{{ step = "..." }}]')
         return tuple(Section(f"{self.place}, {key} {number}", row) for number, row in enumerate(rows, 1))
 
     def refuse_unknown(self, keys: tuple[str, ...]) -> None:
         """A misspelt key would be a silent default."""
         for key in self.values:
             if key not in keys:
-                raise BadInput(f"{self.place}: the key {key!r} is not known; use {', '.join(keys)}")
+                raise self.error(f"the key {key!r} is not known; use {', '.join(keys)}")
 
 
 def _is_number(value: object) -> bool:
@@ -210,20 +212,20 @@ class TomlFile:
         """
         rows = self.whole.values.get(key)
         if not isinstance(rows, list) or not rows:
-            raise BadInput(f"{self.path}: there are no {key}; add one [[{key}]] section per {each}")
+            raise self.whole.error(f"there are no {key}; add one [[{key}]] section per {each}")
         return tuple(self._section(values, f"[[{key}]]", i, key) for i, values in enumerate(rows))
 
     def _content(self, key: str) -> dict[str, Any]:
         table = self.whole.values.get(key)
         if not isinstance(table, dict) or not table:
-            raise BadInput(f"{self.path}: the section [{key}] is missing; add it")
+            raise self.whole.error(f"the section [{key}] is missing; add it")
         return table
 
     def _section(self, values: Any, header: str, nth: int, name: str) -> Section:
         places = [number for number, line in self.headers if line.startswith(header)]
         place = f"{self.path}, line {places[nth]}" if nth < len(places) else f"{self.path}, {header}"
         if not isinstance(values, dict):
-            raise BadInput(f"{place}: {name} is no section; begin it with {header}")
+            raise BadInput(f"{name} is no section; begin it with {header}", where=place)
         return Section(place, values)
 
 

@@ -13,8 +13,8 @@ from pysim.types import BadInput, Dataset, Signal
 from pysim.types.kinds import path_of
 
 _POINTS = 2001  # at which a function of time is looked at first
-_MOST = 2**17  # at which it may be looked at, if it needs more
-_NEAR = 1e-6  # share of its range within which a curve is the function, and of the run within which it may jump
+_MOST = 2**17  # points at which it is looked at, at most; chosen: half a second of calls before it is refused
+_NEAR = 1e-6  # share of its range that a curve may miss, and of the run that a jump may take; chosen: the solvers' rtol
 
 
 class HoldsDataset(Protocol):

@@ -146,8 +146,8 @@ _WORDS = {
 
 # Use of a log -> what was done with it. Held out is what nothing was fitted to, and nothing chosen with.
 USES = {"fit": "fitted", "validate": "used to choose", "test": "held out"}
-_EQUAL = 0.05  # share up to which a change is not worth saying
-_MUCH = 1000.0  # factor beyond which its size says nothing
+_EQUAL = 0.05  # share up to which a change is not worth saying; chosen: half of the tenth said where nothing is known
+_MUCH = 1000.0  # factor beyond which its size says nothing; chosen: far beyond what anyone takes for a value
 _OF_DIRECTION = {"@spread": math.inf, "@low": 0.0, "@high": math.inf}  # beside the exponents, and what stands for none
 NOT_FITTED = "not fitted"  # either of the last two
 

@@ -8,7 +8,7 @@ _RED, _PLAIN = "\x1b[31m", "\x1b[0m"
 
 
 def with_place(place: str, make: Callable[[], _T]) -> _T:
-    """What `make` gives. What it refuses is said with its place in a file, if that is not said yet.
+    """What `make` gives. What it refuses is said with its place in a file, if it has none yet.
 
     Args:
         place: file, line and table, as far as they are known.
@@ -16,8 +16,7 @@ def with_place(place: str, make: Callable[[], _T]) -> _T:
     try:
         return make()
     except BadInput as error:
-        said = str(error).startswith(place.partition(", line ")[0]) or place in str(error)
-        raise error if said else BadInput(f"{place}: {error}") from error
+        raise error if error.where else BadInput(str(error), where=place) from error
 
 
 def printable(text: str) -> str:
@@ -30,11 +29,12 @@ class BadInput(ValueError):
 
     Args:
         argument: of the function that was called, which has to change; "" where that is not known.
+        where: file, line and table that hold it, said ahead of the sentence; "" where that is not known.
     """
 
-    def __init__(self, sentence: str = "", *, argument: str = "") -> None:
-        super().__init__(sentence)
-        self.argument = argument
+    def __init__(self, sentence: str = "", *, argument: str = "", where: str = "") -> None:
+        super().__init__(f"{where}: {sentence}" if where else sentence)
+        self.argument, self.where = argument, where
 
     def __str__(self) -> str:
         return printable(super().__str__())

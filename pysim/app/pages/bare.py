@@ -10,8 +10,8 @@ from pysim.app.bare_logs import KINDS, ROLES, SINE, guesses, matched
 from pysim.app.desk import Desk
 from pysim.app.pages.common import amount
 from pysim.app.parts import Choice, Entry, box, button, card, note, text
-from pysim.io import counted
 from pysim.io.load import READERS
+from pysim.present.data_check.words import columns_words
 from pysim.types import UNITS, BadInput
 
 
@@ -28,11 +28,7 @@ def describe_form(desk: Desk) -> None:
         return
     columns = draft["columns"]
     with card("What are the columns of these logs?"):
-        told = f"{counted(len(logs), 'log')}, {len(columns)} columns, as {logs[0].name} has them. "
-        told += "A dash leaves a column out; the noise may be left empty."
-        if len(logs) > 1:
-            told += " Unless they are sines, the last log is not fitted but used to choose; a later table changes that."
-        text("p", told, "small")
+        text("p", columns_words(len(logs), len(columns), logs[0].name), "small")
         with box("form").style("grid-template-columns: 1.2fr 0.8fr 0.8fr 1.6fr 0.8fr"):
             for words in ("column", "is", "unit", "variable of the model", "noise"):
                 text("span", words, "head")

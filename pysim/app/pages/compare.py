@@ -18,7 +18,7 @@ from pysim.app.pages.moving import moving
 from pysim.app.parts import Chart, Table, box, card, head, quantity, text
 from pysim.app.records import compared_overlay, measured_overlay, stage_keys
 from pysim.present.comparison.figures import bode_chart
-from pysim.present.diagnosis.figures.where import map_chart
+from pysim.present.diagnosis.figures.where import map_chart, map_words
 from pysim.present.diagnosis.words import BEYOND, step_name
 from pysim.present.notes import USES
 from pysim.types import Dataset, MeasuredRecord, Record
@@ -81,10 +81,7 @@ def _maps(desk: Desk, view: _View) -> None:
         with box("row end"):
             text("h2", "Where the error is")
             segments([(key, words) for key, words, _ in keys], chosen[0], lambda key: _set(view, model=key), "Model")
-        told = "Residual in standard deviations of the noise. Click a cell to open its record."
-        if any(one.role == "output" and one.noise is None for one in check.dataset.signals):
-            told += " The best model so far tells how large the noise is: a better one raises these numbers a little."
-        text("p", told, "small")
+        text("p", map_words(check.dataset), "small")
         for k, one in enumerate(error_maps(chosen[2], check.dataset)):
             figure = map_chart(one.rows, one.columns, one.values, one.title, scale=not k)
             label = f"Map of the error: {len(one.rows)} rows, {len(one.columns)} columns"

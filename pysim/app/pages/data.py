@@ -19,7 +19,7 @@ from pysim.app.parts import Choice, Drop, Entry, Table, box, button, card, head,
 from pysim.app.records import measured_overlay
 from pysim.identify.data_check import DataCheck, RecordCheck
 from pysim.io import counted
-from pysim.present.data_check import assumed_between_samples, not_compared, sentence
+from pysim.present.data_check.words import assumed_between_samples, not_compared, sentence, uses_words
 from pysim.present.notes import NOT_FITTED, USES
 from pysim.types import UNITS, BadInput, Record
 from pysim.workflow import models_in
@@ -27,6 +27,10 @@ from pysim.workflow import models_in
 _NO_SLOTS = (
     "The class has no slots, so the page can fit it and show where it fails, but not add what is missing. A slot is a "
     "part that is replaceable and whose filling gives 0; docs/tutorials/own_model.md shows one."
+)
+_READY = (
+    "Compare refits the model and shows where it fails. Find also tries every effect that fits. That takes seconds for "
+    "a small model and minutes for a pump; it can be stopped and goes on later."
 )
 _TICKS = ("validate", "test")  # uses of a log that can be ticked
 _NUMBERS = ("factor", "offset", "noise", "resolution")  # of a signal
@@ -65,9 +69,7 @@ def _ready(desk: Desk) -> None:
     with box("card row end"):
         with box("tight"):
             text("b", "Ready to compare")
-            told = "Compare refits the model and shows where it fails. Find also tries every effect that fits. "
-            told += "That takes seconds for a small model and minutes for a pump; it can be stopped and goes on later."
-            text("span", told, "small")
+            text("span", _READY, "small")
         with box("row"):
             start_button(desk, "Compare and refit", "compare", then="/compare")
             start_button(desk, "Find what is missing", "diagnose", "main", then="/add")
@@ -235,11 +237,7 @@ def _records(desk: Desk, preview: dict[str, int]) -> None:
     held = sum(record.use != "fit" for record in check.records)
     read = [record.source for record in check.records]
     with card(f"{counted(len(check.records), 'record')}, {held} {NOT_FITTED}"):
-        told = "A log used to choose is not fitted; it helps to tell which model is better. A held-out log only shows "
-        told += "how well the answer predicts. All others are fitted. Click a row to see it."
-        if not any(record.use == "validate" for record in check.records):
-            told += " No log is used to choose, so the fitted logs alone tell which model is better."
-        text("p", told, "small")
+        text("p", uses_words(record.use for record in check.records), "small")
         Table(
             "Records", columns, [_row(record) for record in check.records], height="360px", on_tick=used,
             on_row=lambda k: preview.update(record=k), picked=preview.get("record", -1),

@@ -19,7 +19,7 @@ from pysim.io.toml_section import Section
 from pysim.present.data_check.words import cures, sentence
 from pysim.types import BadInput, Dataset
 
-_ALL, _INPUTS = "all signals", "all inputs"
+_ALL_SIGNALS, _ALL_INPUTS, _ALL_LOGS = "all signals", "all inputs", "all logs"  # choices that name none
 # What can be added to the list: word of the step, field of its number, and the number's unit or meaning.
 _KINDS: Mapping[str, tuple[str, str, str]] = {
     "turn the sign": ("flip", "", ""),
@@ -32,7 +32,7 @@ _KINDS: Mapping[str, tuple[str, str, str]] = {
     "take out outliers": ("drop_outliers", "sigmas", "standard deviations"),
     "take off the mean": ("detrend", "", ""),
 }
-_ALL_LOGS, _OF_LOGS = "all logs", ("flip", "scale")  # steps that may change some logs alone
+_OF_LOGS = ("flip", "scale")  # steps that may change some logs alone
 _ONE = ("scale", "delay")  # steps that name one signal; below, those that name any
 _SOME = ("flip", "lowpass", "drop_outliers", "detrend", "fill_gaps")
 
@@ -55,7 +55,7 @@ class _View:
         self._desk = desk
         self.log, self.kind = 0, next(iter(_KINDS))
         self._window: tuple[float, float] | None = None
-        self._signal, self._number, self._of = _ALL, "", _ALL_LOGS
+        self._signal, self._number, self._of = _ALL_SIGNALS, "", _ALL_LOGS
         self._said: tuple[object, str] = None, ""  # data that were checked with the model, and the answer
 
     def lights(self) -> None:
@@ -170,7 +170,7 @@ class _View:
                 Choice("kind of step", list(_KINDS), self.kind, partial(self._set, "kind"))
                 if word in (*_ONE, *_SOME):
                     names = [signal.name for signal in check.dataset.signals]
-                    options = [_INPUTS if word == "fill_gaps" else _ALL, *names] if word in _SOME else names
+                    options = [_ALL_INPUTS if word == "fill_gaps" else _ALL_SIGNALS, *names] if word in _SOME else names
                     self._signal = self._signal if self._signal in options else options[0]
                     text("span", "to", "head")
                     Choice("signal of the step", options, self._signal, partial(self._set, "_signal"))
@@ -192,8 +192,8 @@ class _View:
         step: dict[str, Any] = {"step": word}
         if word in _ONE:
             step["signal"] = self._signal
-        elif word in _SOME and (self._signal not in (_ALL, _INPUTS) or word == "flip"):
-            step["signals"] = [s.name for s in self._shown.signals] if self._signal == _ALL else [self._signal]
+        elif word in _SOME and (self._signal not in (_ALL_SIGNALS, _ALL_INPUTS) or word == "flip"):
+            step["signals"] = [s.name for s in self._shown.signals] if self._signal == _ALL_SIGNALS else [self._signal]
         if word in _OF_LOGS and self._of != _ALL_LOGS:
             step["logs"] = [self._of]
         if field:

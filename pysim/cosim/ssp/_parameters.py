@@ -10,7 +10,7 @@ from urllib.parse import unquote, urlsplit
 
 from pysim.cosim.connection import signal_conversion
 from pysim.cosim.ssp._names import SSD, SSV
-from pysim.types import BadInput, Model
+from pysim.types import BadInput, Model, with_place
 
 Element = ElementTree.Element
 _VALUES = frozenset(f"{{{SSV}}}{kind}" for kind in ("Real", "Integer", "Boolean", "String", "Enumeration", "Binary"))
@@ -53,10 +53,7 @@ def in_units_of(path: Path, model: Model, value: Value) -> tuple[str, float]:
     Raises:
         BadInput: the FMU has no such variable, or its unit is of another kind.
     """
-    try:
-        variable = model[value.name]
-    except BadInput as error:
-        raise BadInput(f"{path}: {error}") from error
+    variable = with_place(str(path), lambda: model[value.name])
     known = signal_conversion(value.unit or variable.unit, variable.unit)
     if known is None:
         raise BadInput(

@@ -109,10 +109,8 @@ def _fmu(path: Path, folder: Path, component: Element, values: list[Value], reco
     own = tuple(variable for member, _, variable in (n.partition(".") for n in recorded) if member == name)
     inner = tuple(variable for variable in own if model[variable].causality not in ("input", "output"))
     parameters = dict(in_units_of(path, model, value) for value in values)
-    try:
-        return Fmu(name, model, parameters=parameters, record=inner, interface=_INTERFACE[implementation])
-    except BadInput as error:
-        raise BadInput(f"{path}: {error}") from error
+    interface = _INTERFACE[implementation]
+    return with_place(str(path), lambda: Fmu(name, model, parameters=parameters, record=inner, interface=interface))
 
 
 def _wires(path: Path, system: Element, unwired: System) -> Iterator[Connection]:
@@ -188,8 +186,5 @@ def _experiment(
     if not start + step <= end < np.inf:
         raise BadInput(f"{path}: no step lies between {start:g} s and {end:g} s; give the end of the run (--stop)")
     every = step if run is None or run.get("every") is None else max(_number(path, run, "every"), step)
-    try:
-        rows = row_times(start, end, step, every)
-    except BadInput as error:
-        raise BadInput(f"{path}: {error}") from error
+    rows = with_place(str(path), lambda: row_times(start, end, step, every))
     return Experiment(rows, names, start=start)

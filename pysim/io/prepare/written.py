@@ -14,7 +14,6 @@ from pysim.io.prepare.outliers import DropOutliers
 from pysim.io.prepare.signals import Delay, Detrend, Flip, Rename, Scaled
 from pysim.io.prepare.step import Step
 from pysim.io.toml_section import Section
-from pysim.types import BadInput
 
 _ALL: tuple[type[Any], ...] = (
     Trim, Exclude, FillGaps, DropOutliers, Resample, LowPass, Detrend, Delay, Flip, Scaled, Rename, HoldOut, Split,
@@ -49,9 +48,7 @@ def is_off(section: Section) -> bool:
     """
     value = section.values.get(_OFF, False)
     if not isinstance(value, bool):
-        raise BadInput(
-            f"{section.place}: {_OFF} = {value!r} is neither true nor false; write {_OFF} = true, or remove it"
-        )
+        raise section.error(f"{_OFF} = {value!r} is neither true nor false; write {_OFF} = true, or remove it")
     return value
 
 
@@ -68,7 +65,7 @@ def values_of(step: Step) -> dict[str, object]:
 def _names(section: Section, key: str) -> Mapping[str, str]:
     inner = section.inner(key)
     if not inner.values:
-        raise BadInput(f'{section.place}: {key} is missing; write {key} = {{ old = "new" }}')
+        raise section.error(f'{key} is missing; write {key} = {{ old = "new" }}')
     return MappingProxyType({name: inner.text(name) for name in inner.values})
 
 

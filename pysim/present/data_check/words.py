@@ -101,6 +101,24 @@ def cures(findings: Iterable[Finding]) -> list[Step]:
     return list(steps.values())
 
 
+def columns_words(logs: int, columns: int, first: str) -> str:
+    """What to say of the columns of logs that are not described yet; `first` is one of the logs."""
+    more = " Unless they are sines, the last log is not fitted but used to choose; a later table changes that."
+    found = f"{counted(logs, 'log')}, {columns} columns, as {first} has them."
+    return f"{found} A dash leaves a column out; the noise may be left empty.{more if logs > 1 else ''}"
+
+
+def uses_words(uses: Iterable[str]) -> str:
+    """What the uses of logs mean."""
+    more = (
+        "" if "validate" in uses else " No log is used to choose, so the fitted logs alone tell which model is better."
+    )
+    return (
+        "A log used to choose is not fitted; it helps to tell which model is better. A held-out log only shows how "
+        f"well the answer predicts. All others are fitted. Click a row to see it.{more}"
+    )
+
+
 def not_compared(dataset: Dataset) -> list[str]:
     """Outputs with empty cells, each with what becomes of them, in a sentence."""
     found = []

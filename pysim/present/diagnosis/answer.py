@@ -9,6 +9,7 @@ from pathlib import Path, PurePath, PurePosixPath
 
 from pysim.identify.greybox import step_warnings
 from pysim.io import shown_value
+from pysim.io.load.sources import seen_from_shared
 from pysim.present.diagnosis.law_words import ABSORBED, formula_text, law_kind
 from pysim.present.diagnosis.words import (
     LEFT_OUT,
@@ -126,12 +127,9 @@ def relative_files(files: Mapping[str, Path], folder: Path) -> dict[str, str]:
 
 
 def seen_from(folder: PurePath, path: PurePath) -> str:
-    """A path relative to a folder, with slashes; whole where no folder holds both, as on two drives of Windows."""
-    shared = next((one for one in (folder, *folder.parents) if path.is_relative_to(one)), None)
-    if shared is None:
-        return path.as_posix()
-    up = [".."] * len(folder.relative_to(shared).parts)
-    return PurePosixPath(*up, *path.relative_to(shared).parts).as_posix()
+    """A file's path from a folder, with slashes; whole where no folder holds both, as on two drives of Windows."""
+    up, down = map(PurePosixPath, seen_from_shared([folder, path]))
+    return PurePosixPath(*(".." for _ in up.parts), down).as_posix() if down.parts else path.as_posix()
 
 
 def _effects(diagnosis: Diagnosis) -> Iterator[str]:

@@ -184,7 +184,7 @@ def test_what_a_controller_misses_is_not_taken_for_its_file(folder: Path) -> Non
         ("T_i = 0.5", "T_i = -0.5", "line 5: PI: K_p"),
         ("dt = 0.01 }", "dt = 0.02 }", "line 5: controller: the block has dt = 0.02 s but is sampled every 0.01 s"),
         ('"reference.csv"', '"lost.csv"', r"^\S+\.toml, line \d+, controller\.reference: cannot read .*lost\.csv"),
-        ('"reference.csv"', "true", r"line \d+, controller\.reference is True; write a number"),
+        ('"reference.csv"', "true", r"line \d+, controller\.reference: True is no number; write one"),
     ],
 )
 def test_what_is_wrong_with_a_block(folder: Path, old: str, new: str, message: str) -> None:

@@ -5,6 +5,7 @@ import numpy as np
 from pysim.identify.data_check import check_dataset
 from pysim.present import Drawing
 from pysim.present.data_check import data, page, text
+from pysim.present.data_check.words import columns_words, uses_words
 from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Record
 
 SIGNALS = (MeasuredSignal("cmd", "input", "1", "", "cmd", noise=0.5), MeasuredSignal("y", "output", "1", "<y>", "y"))
@@ -75,3 +76,12 @@ def test_sines_on_several_inputs_are_told_apart() -> None:
     assert shown.count("amplitude 10 bar") == 2
     assert [one["input"] for one in data(check)["records"]] == ["p", "q", "p", "q"]
     assert "<th>input</th>" in page(check, [], "x")
+
+
+def test_a_reader_hears_of_a_log_to_choose_with_only_where_it_matters() -> None:
+    assert ("No log is used to choose" in uses_words(["fit", "test"]), "No log" in uses_words(["validate"])) == (
+        True,
+        False,
+    )
+    assert columns_words(1, 2, "a.csv").startswith("1 log, 2 columns, as a.csv has them.")
+    assert ("used to choose" in columns_words(2, 2, "a.csv"), "used" in columns_words(1, 2, "a.csv")) == (True, False)

@@ -158,5 +158,12 @@ def map_chart(
     return heat_map(rows, columns, shown, text, across, more, margin={"l": 40, "r": 10, "t": 10, "b": 46})
 
 
+def map_words(dataset: Dataset) -> str:
+    """What the numbers of a map are."""
+    assumed = any(one.role == "output" and one.noise is None for one in dataset.signals)
+    more = " The best model so far tells how large the noise is: a better one raises these numbers a little."
+    return f"Residual in standard deviations of the noise. Click a cell to open its record.{more if assumed else ''}"
+
+
 def _cell(value: float) -> str:
     return f"{value:.1f}" if value < 99.5 else f"{value:.0f}"
