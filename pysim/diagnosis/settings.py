@@ -130,6 +130,15 @@ class LearnSettings:
         0.02, unit="1", meaning="width of a smooth sign's change, over its variable's root mean square",
         source="chosen: one sample in a hundred of a sine lies within",
     )  # fmt: skip
+    bristles: tuple[float, ...] = setting(
+        (0.3, 0.1, 0.03), unit="1",
+        meaning="lengths of a bristle that are screened, over the mean way from one reversal to the next",
+        source="a third of a decade apart; a shorter one is as good as a sign",
+    )  # fmt: skip
+    phases: int = setting(
+        4, unit="1", meaning="phases of a tone that are screened, over half a turn",
+        source="the nearest one explains 85 % or more of the best one's squares",
+    )  # fmt: skip
     most: int = setting(8, unit="1", meaning="laws that are refitted at most", source="measured: trials")
     heat: int = setting(
         4, unit="1", meaning="iterations of a law between updates of its smoothness", source="measured: trials"

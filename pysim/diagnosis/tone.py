@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from pysim.diagnosis.left import logs
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.settings import ToneSettings
+from pysim.identify.greybox.residuals import Channel
 from pysim.types import Dataset, Record
 
 Array = NDArray[np.float64]
@@ -37,6 +38,37 @@ def tone(fit: FinalFit, dataset: Dataset, false_alarm: float) -> float | None:
         return None
     chance, frequency = min(found)
     return frequency if chance * len(found) < false_alarm else None
+
+
+def tone_rate(fit: FinalFit, dataset: Dataset, false_alarm: float) -> float | None:
+    """Angular frequency in rad/s of the tone on the clock of all logs, as exactly as all of them together show it.
+
+    It is the highest point of the residuals' periodogram over all logs, near the frequency that one log shows.
+    """
+    about = tone(fit, dataset, false_alarm)
+    if about is None:
+        return None
+    clock = {
+        record.source: (record.begin or 0.0) + record.data.time - record.data.time[0]
+        for record in dataset.records
+        if isinstance(record.data, Record)
+    }
+    times: dict[Channel, list[Array]] = {}
+    rests: dict[Channel, list[Array]] = {}
+    for source, own in logs(fit):
+        for channel, rest in own.items():
+            if rest.size == clock[source].size:
+                times.setdefault(channel, []).append(clock[source])
+                rests.setdefault(channel, []).append(np.nan_to_num(rest - np.nanmean(rest)))
+    far = 1 / min(float(np.ptp(one)) for own in times.values() for one in own)
+    pairs = [(np.concatenate(times[channel]), np.concatenate(rests[channel])) for channel in times]
+    span = max(float(np.ptp(t)) for t, _ in pairs)
+    grid = 2 * np.pi * (about + np.arange(-far, far, 1 / (8 * span)))
+    power = np.array([sum(abs(np.exp(-1j * w * t) @ r) ** 2 / max(r @ r, 1e-300) for t, r in pairs) for w in grid])
+    best = int(np.clip(np.argmax(power), 1, grid.size - 2))
+    low, middle, high = power[best - 1 : best + 2]
+    bend = low - 2 * middle + high
+    return float(grid[best] + (0.5 * (low - high) / bend if bend < 0 else 0.0) * (grid[1] - grid[0]))
 
 
 def clearest(times: Array, rest: Array) -> tuple[float, float] | None:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnosis.learn.basis import Smoothness, bends, lines, missed
-from pysim.diagnosis.learn.laws import TIME, Law, quotient
+from pysim.diagnosis.learn.laws import TIME, Form, Law, quotient
 from pysim.diagnosis.learn.learn import Learning
 from pysim.types import Model
 from pysim.types.answer import LearnedLaw
@@ -43,7 +43,7 @@ def answered(
     model, keys = learning.present.candidate.model, learning.present.candidate.space.keys
     laws: list[LearnedLaw] = []
     for k, fit in enumerate(learning.fits):
-        law = _law(fit.law, model, fit.knots, fit.unit * fit.values)
+        law = _law(fit.found, model, fit.knots, fit.unit * fit.values)
         known = covariance_of(fit.gram, fit.smoothness, fit.values, learning.inflated)
         numbers = fit.fit.candidate.space.to_model(fit.fit.point.x).tolist()
         law = replace(law, share=learning.shares[k], edf=fit.edf, parameters=dict(zip(keys, numbers, strict=False)))
@@ -70,13 +70,14 @@ def _law(law: Law, model: Model, knots: Array, values: Array) -> LearnedLaw:
     unit = model[side.output].unit or "1"
     if side.output in model.abilities.states:
         unit = quotient(unit, "s")
-    if factor and not law.is_sign:
+    if law.form is Form.VARIABLE:
         unit = quotient(unit, model[factor].unit or "1")
     empty = np.zeros((knots.size, knots.size))
     argument_unit = "s" if argument == TIME else model[argument].unit or "1"
     return LearnedLaw(
-        law.place.name, law.factor, argument, knots, values, empty, 0.0, argument_unit, unit, sign_width=law.width
-    )
+        law.place.name, law.factor, argument, knots, values, empty, 0.0, argument_unit, unit,
+        sign_width=law.number if law.form is Form.SIGN else 1.0,
+    )  # fmt: skip
 
 
 def _with(law: LearnedLaw, known: Known, unit: float) -> LearnedLaw:

@@ -31,6 +31,7 @@ class LawFit:
     """The refit of a law and the model's parameters, ended or not.
 
     Args:
+        model: compiled with the law's term.
         law: place, argument and factor of the law.
         knots: (m,).
         unit: scale of the coefficients, in the model's units.
@@ -38,6 +39,7 @@ class LawFit:
         fit: refit of the model; the last m search variables are the coefficients over `unit`.
     """
 
+    model: LawModel = field(repr=False)
     law: Law
     knots: Array = field(repr=False)
     unit: float
@@ -54,15 +56,24 @@ class LawFit:
         """Cost without the curve's prior, nats."""
         return self.fit.point.cost - 0.5 * float(np.sum((self.smoothness.rows @ self.values) ** 2))
 
+    @property
+    def found(self) -> Law:
+        """The law with the refitted number of its factor."""
+        return replace(self.law, number=self.fit.values[self.law.free[0]]) if self.law.free else self.law
+
+    @property
+    def own(self) -> tuple[str, ...]:
+        """Names of the law's free parameters: the factor's number, if it is refitted, then the coefficients."""
+        return (*self.law.free, *self.law.place.coefficients(self.knots.size))
+
     def of_the_model(self, estimates: Sequence[Estimate]) -> tuple[Estimate, ...]:
-        """The estimates without those of the curve's coefficients."""
-        own = self.law.place.coefficients(self.knots.size)
-        return tuple(one for one in estimates if one.name not in own)
+        """The estimates without those of the law's own parameters."""
+        return tuple(one for one in estimates if one.name not in self.own)
 
     def without(self, sources: Collection[str]) -> LawFit:
         """Refitted with the smoothness held, without the observations of these sources."""
         own = refit.left_out(self.fit, sources)
-        numbers = self.law, self.knots, self.unit, self.smoothness
+        numbers = self.model, self.law, self.knots, self.unit, self.smoothness
         return ended(_beginning(*numbers, own.candidate, own.point, own.simulation))
 
     @property
@@ -87,6 +98,11 @@ class LawFit:
     def edf(self) -> float:
         """Effective number of coefficients (effective degrees of freedom)."""
         return self.smoothness.edf(self.gram)
+
+    @property
+    def df(self) -> float:
+        """Effective number of free parameters of the law."""
+        return self.edf + len(self.law.free)
 
     @property
     def coarse(self) -> bool:
@@ -115,7 +131,7 @@ def begun(model: LawModel, ranked: Ranked, simulation: Simulation) -> LawFit:
     ratio = ranked.unit / unit  # of the old scale to the new one
     smooth = ranked.curve.smoothness
     smooth = replace(smooth, bending=smooth.bending / ratio**2, level=smooth.level / ratio**2)
-    x, values = model.present.point.x, ranked.curve.values * ratio
+    x, values = np.append(model.present.point.x, ranked.law.start), ranked.curve.values * ratio
     first = started(model, ranked.law, ranked.knots, unit, smooth, np.append(x, values), simulation)
     if first.fit.point.cost < model.present.point.cost:
         return first
@@ -132,14 +148,15 @@ def started(
     simulation: Simulation,
     carried: Carried | None = None,
 ) -> LawFit:
-    """Begin the refit of a law at x (n + m,): search variables of the model, then coefficients over `unit`."""
-    names = law.place.coefficients(knots.size)
-    candidate = model.candidate(law.settings(knots, unit), names, np.ones(knots.size), free=True)
-    point = exact(candidate, simulation)(x, carried or model.present.point.carried)
-    return _beginning(law, knots, unit, smoothness, candidate, point, simulation)
+    """Begin the refit of a law at x: search variables of the model (n,), the factor's number if it is refitted, and
+    the coefficients (m,) over `unit`."""
+    candidate = model.candidate(law, knots, unit, free=True)
+    point = exact(candidate, simulation)(x, carried or model.carried(candidate))
+    return _beginning(model, law, knots, unit, smoothness, candidate, point, simulation)
 
 
 def _beginning(
+    model: LawModel,
     law: Law,
     knots: Array,
     unit: float,
@@ -158,7 +175,7 @@ def _beginning(
         return penalised(without(x, carried), smoothness)
 
     return LawFit(
-        law, knots, unit, smoothness, refit.begun(candidate, penalised(bare, smoothness), simulation, evaluate)
+        model, law, knots, unit, smoothness, refit.begun(candidate, penalised(bare, smoothness), simulation, evaluate)
     )
 
 
@@ -168,7 +185,7 @@ def moved(one: LawFit, points: int) -> LawFit:
         return one
     one = replace(one, fit=advance(one.fit, points))
     smooth, own = one.smoothness.moved(one.gram, one.values), one.fit
-    found = _beginning(one.law, one.knots, one.unit, smooth, own.candidate, one.bare, own.simulation)
+    found = _beginning(one.model, one.law, one.knots, one.unit, smooth, own.candidate, one.bare, own.simulation)
     if own.state.outcome is not None or found.fit.state.outcome is not None:
         return found
     memory = {**own.state.memory, "expected": found.fit.state.memory["expected"]}  # keeps the trust radius

@@ -2,8 +2,14 @@
 
 A law is `factor*h(argument)`, added to a variable that a slot computes. h is the curve of `curve.py`. The argument is a
 variable of the slot ("force.x"), another variable of the model, or `time` on the common clock of all records. The
-factor is "" for 1, "v" for a variable of the slot, or "sign(v)" for its smooth sign. If a slot has two sides, `q1` over
-`p1` and `q2` over `p2`, both get the same curve, and the law has the names of the first side.
+factor is "" for 1, or has one of these forms:
+
+- "v", a variable of the slot, or "sign(v)", its smooth sign;
+- "bristle(v, 5e-4)", the deflection of a bristle over its length: it follows the speed v, and remembers (Dahl 1968);
+- "cos(151.8*time + 0.4)", a tone on the common clock.
+
+If a slot has two sides, `q1` over `p1` and `q2` over `p2`, both get the same curve, and the law has the names of the
+first side.
 
 One model is compiled for each place. Its parameters choose argument and factor by weights (1 for the chosen one, 0 for
 the others), and hold knots and coefficients, so that another law or other knots need no new compilation. One model with
@@ -12,9 +18,11 @@ terms at all places would make derivatives by the coefficients ten times as expe
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +34,17 @@ from pysim.types import Model
 Array = NDArray[np.float64]
 
 TIME = "time"  # of the model, which runs on the common clock of all records
+_SPEEDS = ("m/s", "rad/s")  # units of the variables that may pull on a bristle
+
+
+class Form(Enum):
+    """What the factor of a law is."""
+
+    ONE = "1"
+    VARIABLE = "a variable"
+    SIGN = "the smooth sign of a variable"
+    BRISTLE = "the deflection of a bristle that a speed pulls"
+    TONE = "a cosine of time"
 
 
 def wrapped(base: str, term: Terms, name: str) -> str:
@@ -59,12 +78,14 @@ class Place:
         key: prefix of the names of its parameters.
         sides: variables that get the same law.
         outside: variables outside the slot that the law may depend on.
+        speeds: indices of the speeds in `own` of the side; none in a slot with two sides, which share no bristle.
     """
 
     name: str
     key: str
     sides: tuple[Side, ...]
     outside: tuple[str, ...]
+    speeds: tuple[int, ...] = ()
 
     @property
     def arguments(self) -> tuple[str, ...]:
@@ -72,7 +93,7 @@ class Place:
         return (*self.sides[0].own, *self.outside)
 
     def laws(self) -> Iterator[Law]:
-        """All laws of this place. The factor is never the argument itself, since the curve alone can represent that."""
+        """All laws of this place without memory. The factor is never the argument itself, which the curve can hold."""
         for i in range(len(self.arguments)):
             yield Law(self, i)
         if self.sides[0].output_rate:
@@ -80,8 +101,8 @@ class Place:
         for factor in range(len(self.sides[0].own)):
             for i in range(len(self.arguments)):
                 if i != factor:
-                    yield Law(self, i, factor)
-                    yield Law(self, i, factor, is_sign=True)
+                    yield Law(self, i, Form.VARIABLE, factor)
+                    yield Law(self, i, Form.SIGN, factor)
 
     def coefficients(self, count: int) -> tuple[str, ...]:
         """Names of the parameters that hold the curve's values."""
@@ -95,16 +116,19 @@ class Law:
     Args:
         place: where it is added.
         chosen: index of its argument in `place.arguments`.
-        by: index of its factor in `own` of each side; None for the factor 1.
-        is_sign: whether the factor is the smooth sign of that variable.
-        width: over which the smooth sign changes, in the variable's unit.
+        form: what its factor is.
+        by: index of the factor's variable in `own` of each side; None for 1 and for a tone.
+        number: of the factor: the width over which a sign changes, in its variable's unit; the length of a bristle, in
+            that unit times s; the phase of a tone, rad. The last two are refitted.
+        rate: angular frequency of a tone, rad/s.
     """
 
     place: Place
     chosen: int
+    form: Form = Form.ONE
     by: int | None = None
-    is_sign: bool = False
-    width: float = 1.0
+    number: float = 1.0
+    rate: float = 0.0
 
     @property
     def argument(self) -> str:
@@ -114,15 +138,35 @@ class Law:
     @property
     def factor(self) -> str:
         """The factor in the form of `LearnedLaw`."""
-        if self.by is None:
-            return ""
-        name = self.place.sides[0].own[self.by].removeprefix(f"{self.place.name}.")
-        return f"sign({name})" if self.is_sign else name
+        if self.form is Form.BRISTLE:
+            return f"bristle({self._variable}, {self.number:.4g})"
+        if self.form is Form.TONE:
+            return f"cos({self.rate:.7g}*time + {self.number % (2 * math.pi):.4g})"
+        return f"sign({self._variable})" if self.form is Form.SIGN else self._variable
+
+    @property
+    def _variable(self) -> str:
+        """Name of the factor's variable in the slot; "" without one."""
+        return "" if self.by is None else self.place.sides[0].own[self.by].removeprefix(f"{self.place.name}.")
+
+    @property
+    def free(self) -> tuple[str, ...]:
+        """Name of the parameter that holds the factor's number if it is refitted."""
+        last = {Form.BRISTLE: "l", Form.TONE: "p"}.get(self.form)
+        return (f"{self.place.key}_{last}",) if last else ()
+
+    @property
+    def start(self) -> Array:
+        """(1,) start of the factor's number in the search, of a length its logarithm; (0,) if it is not refitted."""
+        own = math.log(self.number) if self.form is Form.BRISTLE else self.number
+        return np.full(len(self.free), own)
 
     @property
     def label(self) -> str:
-        """The law as text, such as "force: sign(v) * h(force.x)"."""
-        return f"{self.place.name}: {self.factor + ' * ' if self.factor else ''}h({self.argument})"
+        """The law as text, such as "force: sign(v) * h(force.x)", without the number of its factor."""
+        forms = {Form.BRISTLE: f"bristle({self._variable})", Form.TONE: f"tone({self.rate / (2 * math.pi):.4g} Hz)"}
+        factor = forms.get(self.form, self.factor)
+        return f"{self.place.name}: {factor + ' * ' if factor else ''}h({self.argument})"
 
     def seen(self, side: Side) -> tuple[str, str]:
         """Full names of argument and factor on one side; "" for the factor 1."""
@@ -131,14 +175,18 @@ class Law:
 
     def settings(self, knots: Array, unit: float = 1.0) -> dict[str, float]:
         """Parameter values that turn the compiled term into this law, with knots (m,); `unit` scales coefficients."""
-        key, wide = self.place.key, widths(knots)
+        key, wide, form = self.place.key, widths(knots), self.form
         found = {f"{key}_u": unit}
         found |= {f"{key}_a{i}": float(i == self.chosen) for i in range(len(self.place.arguments))}
-        found[f"{key}_b"] = float(self.by is None)
+        found[f"{key}_b"] = float(form is Form.ONE)
         for i in range(len(self.place.sides[0].own)):
-            found[f"{key}_b{i}"] = float(i == self.by and not self.is_sign)
-            found[f"{key}_s{i}"] = float(i == self.by and self.is_sign)
-            found[f"{key}_d{i}"] = self.width
+            found[f"{key}_b{i}"] = float(i == self.by and form is Form.VARIABLE)
+            found[f"{key}_s{i}"] = float(i == self.by and form is Form.SIGN)
+            found[f"{key}_d{i}"] = self.number if form is Form.SIGN else 1.0
+            if self.free:
+                found[f"{key}_m{i}"] = float(i == self.by and form is Form.BRISTLE)
+        if self.free:
+            found |= {f"{key}_t": float(form is Form.TONE), f"{key}_f": self.rate, self.free[0]: self.number}
         for i, (k, w) in enumerate(zip(knots.tolist(), wide.tolist(), strict=True), start=1):
             found[f"{key}_k{i}"], found[f"{key}_w{i}"] = k, w
         return found
@@ -151,10 +199,12 @@ class Terms:
     Args:
         places: get one term each.
         count: number of knots of each curve.
+        memory: whether the factor may be a bristle or a tone, which costs a state.
     """
 
     places: tuple[Place, ...]
     count: int
+    memory: bool = False
 
     @property
     def probes(self) -> tuple[str, ...]:
@@ -180,8 +230,11 @@ class Terms:
             declared += [f"  parameter Real {key}_a{i} = 0;" for i in range(len(place.arguments))]
             declared += [f"  parameter Real {key}_b = 0;", f"  parameter Real {key}_u = 1;"]
             for i in range(len(place.sides[0].own)):
-                declared += [f"  parameter Real {key}_{weight}{i} = 0;" for weight in "bs"]
+                declared += [f"  parameter Real {key}_{weight}{i} = 0;" for weight in ("bsm" if self.memory else "bs")]
                 declared += [f"  parameter Real {key}_d{i} = 1;"]
+            if self.memory:
+                declared += [f"  parameter Real {key}_{name} = 0;" for name in "tfp"]
+                declared += [f"  parameter Real {key}_l = 1;"]
             for n, side in enumerate(place.sides, start=1):
                 declared += [f"  Real {key}_z{n};", f"  Real {key}_h{n};", f"  Real {key}_y{n};"]
                 seen = (*side.own, *place.outside)
@@ -192,6 +245,14 @@ class Terms:
                 if not side.output_rate:
                     for i, name in enumerate(side.own):
                         factors += [f"{key}_b{i}*{name}", f"{key}_s{i}*tanh({name}/{key}_d{i})"]
+                if self.memory:
+                    factors.append(f"{key}_t*cos({key}_f*time + {key}_p)")
+                    if place.speeds:
+                        pulls = " + ".join(f"{key}_m{i}*{side.own[i]}" for i in place.speeds)
+                        declared += [f"  Real {key}_v;", f"  Real {key}_s(start=0, fixed=true);"]
+                        equations.append(f"  {key}_v = {pulls};")
+                        equations.append(f"  der({key}_s) = ({key}_v - noEvent(abs({key}_v))*{key}_s)/{key}_l;")
+                        factors.append(f"{key}_s")
                 equations.append(f"  {key}_y{n} = ({' + '.join(factors)})*{key}_h{n};")
                 if side.output_rate:
                     declared.append(f"  Real {key}_r{n};")
@@ -231,8 +292,14 @@ def places(slots: Sequence[Slot], model: Model) -> tuple[Place, ...]:
         sides = _sides(slot, known, set(model.abilities.states))
         if sides and sides[0].own:
             outside = () if sides[0].output_rate else _outside(slots, model, sides)
-            found.append(Place(slot.name, f"law{number}", sides, outside))
+            found.append(Place(slot.name, f"law{number}", sides, outside, _speeds(sides, model)))
     return tuple(found)
+
+
+def _speeds(sides: Sequence[Side], model: Model) -> tuple[int, ...]:
+    if len(sides) > 1 or sides[0].output_rate:
+        return ()
+    return tuple(i for i, name in enumerate(sides[0].own) if model[name].unit in _SPEEDS)
 
 
 def _of_state(k: int, model: Model) -> Place:
@@ -241,7 +308,7 @@ def _of_state(k: int, model: Model) -> Place:
     others = [name for name in model.abilities.states if depends is None or name in depends] or [state]
     own = tuple(others)
     side = Side(state, "", own, ("",) * len(own))
-    return Place(f"der({state})", f"law{k + 1}", (side,), (*_inputs(model), TIME))
+    return Place(f"der({state})", f"law{k + 1}", (side,), (*_inputs(model), TIME), _speeds((side,), model))
 
 
 def _outside(slots: Sequence[Slot], model: Model, sides: Sequence[Side]) -> tuple[str, ...]:
@@ -306,13 +373,14 @@ def _numbered(outputs: Sequence[str], sees: Sequence[str]) -> list[tuple[str, li
 
 
 def samples(law: Law, seen: Mapping[str, Array]) -> tuple[Array, Array]:
-    """Samples (n,) of a law's argument and factor, all sides concatenated, from those of the model's variables."""
+    """Samples (n,) of a law's argument and factor, all sides concatenated, from those of the model's variables.
+    A bristle and a tone count as 1, which is the most that they reach."""
     z, by = [], []
     for side in law.place.sides:
         argument, factor = law.seen(side)
         z.append(seen[argument])
-        value = seen[factor] if factor else np.ones(z[-1].size)
-        by.append(np.tanh(value / law.width) if law.is_sign else value)
+        value = seen[factor] if factor and not law.free else np.ones(z[-1].size)
+        by.append(np.tanh(value / law.number) if law.form is Form.SIGN else value)
     return np.concatenate(z), np.concatenate(by)
 
 

@@ -9,15 +9,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pysim.diagnosis import rivals
-from pysim.diagnosis.learn.basis import closer
+from pysim.diagnosis.learn.basis import Array, closer
 from pysim.diagnosis.learn.curve import curve_basis
 from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, settled, started
-from pysim.diagnosis.learn.laws import TIME, Place, Terms, places
-from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, screen, seen
+from pysim.diagnosis.learn.laws import TIME, Form, Law, Place, Terms, places
+from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, over_all, remembering, screen, seen
 from pysim.diagnosis.left import Floors
 from pysim.diagnosis.refit import FinalFit, Pairs, converged, left_out
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
+from pysim.diagnosis.tone import tone_rate
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput
 from pysim.types.answer import GainTest, Verdict
@@ -100,12 +101,16 @@ class Learner:
         laws = [law for law in laws if clock or law.argument != TIME]
         self._say(f"trying {len(laws)} laws at {len(models)} places")
         ranked = screen(self._rough, models, laws, signals, self._floors)
-        chosen = [one for one in ranked if one.score > 0 and one.score >= self._settings.near * ranked[0].score]
-        fits = self._raced([(models[one.law.place.key], one) for one in chosen[: self._settings.most]])
+        fits = self._raced(models, ranked)
+        if not fits or self._share(fits[0]) < 1 - self._settings.least:
+            with_memory = self._with_memory([law for law in laws if not law.place.sides[0].output_rate], signals)
+            ranked = sorted([*ranked, *with_memory[1]], key=lambda one: -one.score)
+            laws = [*laws, *(one.law for one in with_memory[1])]
+            fits = sorted([*fits, *self._raced(*with_memory)], key=self._scored)
         if not fits:
             return Learning(self._present, tuple(ranked), refused=self._refused)
         self._say(f"refitting {fits[0].law.label}")
-        best = self._finished(fits[0], models[fits[0].law.place.key])
+        best = self._finished(fits[0])
         test, end = self._tested(best, len(laws)), (best, *fits[1:])
         return Learning(
             self._present,
@@ -118,39 +123,59 @@ class Learner:
             self._refused,
         )
 
-    def _model(self, place: Place, count: int) -> LawModel | None:
+    def _model(self, place: Place, count: int, *, memory: bool = False) -> LawModel | None:
         try:
-            model = self._compile(self._present.candidate.effects, Terms((place,), count))
+            model = self._compile(self._present.candidate.effects, Terms((place,), count, memory))
         except BadInput as error:
             self._refused[place.name] = str(error)
             return None
-        return LawModel(place, count, self._rough, model)
+        return LawModel(place, count, self._rough, model, memory)
 
-    def _raced(self, chosen: Sequence[tuple[LawModel, Ranked]]) -> list[LawFit]:
-        """Refit the laws for some iterations, and the finalists for some more; the best first."""
-        running: list[tuple[LawModel, LawFit]] = []
-        for model, one in chosen:
+    def _with_memory(
+        self, laws: Sequence[Law], signals: Mapping[str, Array]
+    ) -> tuple[dict[str, LawModel], list[Ranked]]:
+        """Compiled models and screened laws with bristles and tones: for each place and form the best number of the
+        factor over one argument, then that number over the other arguments."""
+        session = self._session
+        clock = session.has_clock and self._present.candidate.transient
+        rate = tone_rate(self._rough, session.dataset, session.settings.false_alarm) if clock else None
+        starts = remembering(laws, signals, rate)
+        where = dict.fromkeys(law.place for law in starts)
+        models = {one.key: model for one in where if (model := self._model(one, self._settings.knots, memory=True))}
+        starts = [law for law in starts if law.place.key in models]
+        self._say(f"trying bristles and tones at {len(models)} places")
+        best: dict[tuple[Place, Form, int | None], Ranked] = {}
+        for one in screen(self._rough, models, starts, signals, self._floors):
+            best.setdefault((one.law.place, one.law.form, one.law.by), one)
+        others = over_all([one.law for one in best.values()], laws)
+        more = screen(self._rough, models, others, signals, self._floors)
+        return models, sorted([*best.values(), *more], key=lambda one: -one.score)
+
+    def _raced(self, models: Mapping[str, LawModel], ranked: Sequence[Ranked]) -> list[LawFit]:
+        """Refit the laws near the best one for some iterations, and the finalists for some more; the best first."""
+        chosen = [one for one in ranked if one.score > 0 and one.score >= self._settings.near * ranked[0].score]
+        running: list[LawFit] = []
+        for one in chosen[: self._settings.most]:
             self._say(f"refitting {one.law.label}")
-            fit = moved(begun(model, one, self._rough.simulation), self._settings.heat)
+            fit = moved(begun(models[one.law.place.key], one, self._rough.simulation), self._settings.heat)
             if fit.fit.good and fit.cost < self._rough.point.cost:
-                running.append((model, fit))
-        running.sort(key=lambda one: self._scored(one[1]))
+                running.append(fit)
+        running.sort(key=self._scored)
         finalists = self._session.settings.finalists
-        further = [moved(fit, self._settings.heat) for _, fit in running[:finalists]]
-        fits = [*(fit for fit in further if fit.fit.good), *(fit for _, fit in running[finalists:])]
-        return sorted(fits, key=self._scored)
+        further = [moved(fit, self._settings.heat) for fit in running[:finalists]]
+        return sorted([*(fit for fit in further if fit.fit.good), *running[finalists:]], key=self._scored)
 
     def _scored(self, one: LawFit) -> float:
         """Penalised cost relative to the present model, nats; the lowest is best."""
         inflated, count = self._colour(one, self._rough), rivals.samples(self._rough)
-        return -rivals.penalised(self._rough.point.cost - one.cost, one.edf, inflated, count)
+        return -rivals.penalised(self._rough.point.cost - one.cost, one.df, inflated, count)
 
     @staticmethod
     def _colour(one: LawFit, present: FinalFit) -> float:
         left = rivals.of(one.fit)
         return rivals.effective(left, rivals.of(present).residual - left.residual)
 
-    def _finished(self, one: LawFit, model: LawModel) -> LawFit:
+    def _finished(self, one: LawFit) -> LawFit:
         """Refit a law to the end; double its knots as long as the data resolve the corners and the law gets better.
 
         Only the last refit has the solver settings of models that are kept; those before are rougher and cheaper.
@@ -158,7 +183,7 @@ class Learner:
         settings, rough = self._settings, self._rough.simulation
         best = settled(one, settings.heat)
         while best.fit.good and best.coarse and 2 * best.knots.size - 1 <= settings.most_knots:
-            finer = self._model(model.place, 2 * best.knots.size - 1)
+            finer = self._model(best.law.place, 2 * best.knots.size - 1, memory=best.model.memory)
             if finer is None:
                 break
             k = closer(best.knots, best.values)
@@ -168,10 +193,10 @@ class Learner:
             again = settled(again, settings.heat)
             if not again.fit.good or self._scored(again) >= self._scored(best):
                 break
-            best, model = again, finer
+            best = again
         for simulation in self._finer(rough):
-            point = best.fit.point
-            again = started(model, best.law, best.knots, best.unit, best.smoothness, point.x, simulation, point.carried)
+            own, point = (best.law, best.knots, best.unit, best.smoothness), best.fit.point
+            again = started(best.model, *own, point.x, simulation, point.carried)
             if not again.fit.good:
                 return one
             best = ended(settled(again, settings.heat))
@@ -204,8 +229,8 @@ class Learner:
     def _tested(self, one: LawFit, laws: int) -> GainTest:
         """F test with the curve's effective number of coefficients, then the least share, then the vetoes."""
         present, gain = self._present, self._present.point.cost - one.cost
-        size, choices = present.candidate.size + math.ceil(one.edf), laws + self._tried
-        test = rivals.gain_test(present, one.fit, gain, one.edf, size, choices, self._session.settings)
+        size, choices = present.candidate.size + math.ceil(one.df), laws + self._tried
+        test = rivals.gain_test(present, one.fit, gain, one.df, size, choices, self._session.settings)
         if test.verdict is not Verdict.BETTER:
             return test
         if self._share(one) <= self._settings.least:

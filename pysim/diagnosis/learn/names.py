@@ -29,7 +29,9 @@ Alone = Callable[[Sequence[Effect]], Candidate]
 
 
 def refines(law: Law, effect: Effect) -> bool:
-    """Whether the law is at the effect's slot, over a variable that the effect's own law has."""
+    """Whether the law is at the effect's slot, over a variable that the effect's own law has, and has no memory."""
+    if law.free:
+        return False
     name = law.argument.removeprefix(f"{law.place.name}.")
     words = set(re.findall(r"[A-Za-z_]\w*", effect.law))
     return effect.slot == law.place.name and name in words
@@ -79,22 +81,21 @@ def _without(session: Session, law: LawFit, effect: Effect, alone: Alone, settin
     effects = [one for one in law.fit.candidate.effects if one is not effect]
     values = dict(_kept(law, effect))
     try:
-        candidate, terms = alone(effects), Terms((law.law.place,), law.knots.size)
+        candidate, terms = alone(effects), Terms((law.law.place,), law.knots.size, bool(law.law.free))
         present = begin(candidate, values, law.fit.simulation, law.fit)
         if not present.good:
             return None
         model = session.build_law(effects, terms)
     except BadInput:
         return None
-    made = LawModel(law.law.place, law.knots.size, present, model)
-    x = np.append(candidate.at(values), law.values)
+    made = LawModel(law.law.place, law.knots.size, present, model, terms.memory)
+    x = np.append(candidate.at(values), law.fit.point.x[-len(law.own) :])
     found = started(made, law.law, law.knots, law.unit, law.smoothness, x, law.fit.simulation)
     return ended(settled(found, settings.heat)) if found.fit.good else None
 
 
 def _kept(law: LawFit, effect: Effect) -> Iterator[tuple[str | tuple[str, str], float]]:
     """Key and value of the free parameters of the model and of all effects but one."""
-    own = law.law.place.coefficients(law.knots.size)
     for key, value in law.fit.values.items():
-        if key not in own and not (isinstance(key, tuple) and key[0] == effect.name):
+        if key not in law.own and not (isinstance(key, tuple) and key[0] == effect.name):
             yield key, value

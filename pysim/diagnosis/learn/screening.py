@@ -13,14 +13,15 @@ from numpy.typing import NDArray
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.learn.basis import Curve, knots, solve
-from pysim.diagnosis.learn.laws import TIME, Law, Place, samples
+from pysim.diagnosis.learn.laws import TIME, Form, Law, Place, samples
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.settings import LearnSettings
 from pysim.identify.greybox import Problem
+from pysim.identify.greybox.observation import Run
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import beside
-from pysim.identify.greybox.residuals import Channel
+from pysim.identify.greybox.residuals import Carried, Channel
 from pysim.simulate import Rodas, simulate_many
 from pysim.types import Model, Outcome
 
@@ -73,17 +74,29 @@ class LawModel:
         count: number of knots of its curve.
         present: refit of the model without the term.
         model: the compiled model.
+        memory: whether the term may have a bristle or a tone.
     """
 
     place: Place
     count: int
     present: FinalFit = field(repr=False)
     model: Model = field(repr=False)
+    memory: bool = False
 
     @cached_property
     def problem(self) -> Problem:
-        """The compiled model and the measurements."""
-        return beside(self.present.candidate.problem, self.model, [])
+        """The compiled model and the measurements. A bristle is not deflected when a log begins."""
+        own, known = (
+            beside(self.present.candidate.problem, self.model, []),
+            self.present.candidate.model.abilities.states,
+        )
+        is_new = np.array([name not in known for name in self.model.abilities.states])
+
+        def held(run: Run) -> Run:
+            return replace(run, initial=np.where(is_new, 0.0, run.initial)) if run.initial.size else run
+
+        held_still = [one.with_runs([held(run) for run in one.runs]) for one in own.observations]
+        return replace(own, observations=tuple(held_still))
 
     def slopes(self, law: Law, k: Array, by: Array) -> tuple[float, Array] | None:
         """Scale of a law's coefficients, and the Jacobian (n_r, m) by them at 0; None if the run fails.
@@ -92,41 +105,47 @@ class LawModel:
             k, by: (m,) knots, and (n,) samples of its factor.
         """
         unit = _LITTLE / max(float(np.sqrt(np.mean(by**2))), 1e-300)
-        names = self.place.coefficients(k.size)
-        candidate = self.candidate(law.settings(k, unit), names, np.ones(k.size), free=False)
+        candidate = self.candidate(law, k, unit, free=False)
         point = candidate.residuals(self.present.simulation.rough()).evaluate(
-            candidate.model, candidate.space, np.zeros(k.size), self.present.point.carried
+            candidate.model, candidate.space, np.zeros(k.size), self.carried(candidate)
         )
         return (unit, point.jacobian) if point.good and np.isfinite(point.jacobian).all() else None
 
-    def candidate(self, settings: Mapping[str, float], names: Sequence[str], scale: Array, *, free: bool) -> Candidate:
-        """A candidate whose free variables are the parameters of the model, if `free`, and these coefficients (m,).
+    def carried(self, candidate: Candidate) -> Carried:
+        """Initial states and sensor errors of the model without the term, for one with it."""
+        return candidate.carried(self.present.candidate, self.present.point)
+
+    def candidate(self, law: Law, k: Array, unit: float, *, free: bool) -> Candidate:
+        """A candidate whose free variables are the law's coefficients (m,), and if `free` the model's parameters and
+        the number of the law's factor before them.
 
         Args:
-            settings, scale: parameters that choose the law, and (m,) scale of the coefficients in the search.
+            k, unit: (m,) knots, and scale of the coefficients.
         """
         own = self.present.candidate
-        held = own.held(self.present.values) if not free else own.space
-        space = _with_coefficients(held, settings, names, scale)
+        base = own.space if free else own.held(self.present.values)
+        first, names = law.free if free else (), self.place.coefficients(k.size)
+        space = _with_law(base, law, first, names, law.settings(k, unit))
         return replace(own, problem=replace(self.problem, space=space))
 
 
-def _with_coefficients(
-    base: ParameterSpace, settings: Mapping[str, float], names: Sequence[str], scale: Array
+def _with_law(
+    base: ParameterSpace, law: Law, first: Sequence[str], names: Sequence[str], settings: Mapping[str, float]
 ) -> ParameterSpace:
-    count, far = len(names), np.full(len(names), math.inf)
+    own, far, is_length = (*first, *names), np.full(len(names), math.inf), law.form is Form.BRISTLE
+    low = 0.0 if is_length else -math.inf
     return ParameterSpace(
-        keys=(*base.keys, *names),
-        variables=(*base.variables, *names),
-        records=(*base.records, *(None,) * count),
-        units=(*base.units, *("1",) * count),
-        start=np.append(base.start, np.zeros(count)),
-        lower=np.append(base.lower, -far),
-        upper=np.append(base.upper, far),
-        scale=np.append(base.scale, scale),
-        log=np.append(base.log, np.zeros(count, dtype=bool)),
+        keys=(*base.keys, *own),
+        variables=(*base.variables, *own),
+        records=(*base.records, *(None,) * len(own)),
+        units=(*base.units, *("1",) * len(own)),
+        start=np.concatenate([base.start, [law.number] * len(first), np.zeros(len(names))]),
+        lower=np.concatenate([base.lower, [low] * len(first), -far]),
+        upper=np.concatenate([base.upper, [math.inf] * len(first), far]),
+        scale=np.append(base.scale, np.ones(len(own))),
+        log=np.concatenate([base.log, [is_length] * len(first), np.zeros(len(names), dtype=bool)]),
         ties=base.ties,
-        fixed={**base.fixed, **settings},
+        fixed={**base.fixed, **{key: value for key, value in settings.items() if key not in own}},
     )
 
 
@@ -157,18 +176,49 @@ def distinct(places: Sequence[Place], signals: Mapping[str, Array]) -> list[Law]
         shapes = [_scaled(samples(Law(place, i), signals)[0]) for i in range(len(place.arguments))]
         first = [next(j for j, other in enumerate(shapes) if _alike(one, other)) for one in shapes]
         for law in place.laws():
-            if law.is_sign:
-                own = samples(replace(law, is_sign=False), signals)[1]
+            if law.form is Form.SIGN:
+                own = samples(replace(law, form=Form.VARIABLE), signals)[1]
                 width = LearnSettings().sign_width * float(np.sqrt(np.mean(own**2)))
-                law = replace(law, width=float(f"{width:.2g}") or 1.0)
+                law = replace(law, number=float(f"{width:.2g}") or 1.0)
             by = samples(law, signals)[1]
             if first[law.chosen] != law.chosen or not np.ptp(shapes[law.chosen]) > 0 or law.by == law.chosen:
                 continue
             if law.by is not None and (first[law.by] != law.by or not np.ptp(by) > _SAME * float(np.abs(by).max())):
                 continue
-            if not law.is_sign or min(np.mean(by > 0.5), np.mean(by < -0.5)) > _BOTH:
+            if law.form is not Form.SIGN or min(np.mean(by > 0.5), np.mean(by < -0.5)) > _BOTH:
                 found.append(law)
     return found
+
+
+def remembering(laws: Sequence[Law], signals: Mapping[str, Array], rate: float | None) -> list[Law]:
+    """Each place's laws with bristles of several lengths, and with tones of several phases, all over one argument.
+
+    Args:
+        laws: without memory, of places that have no rates, as `distinct` gives them.
+        rate: angular frequency of a tone in the residual, rad/s; None without one.
+    """
+    settings, found = LearnSettings(), list[Law]()
+    for place, law in {law.place: law for law in reversed(laws) if law.form is Form.ONE}.items():
+        for i in place.speeds:
+            stroke = _stroke(signals[place.sides[0].own[i]], signals[TIME])
+            found += [Law(place, law.chosen, Form.BRISTLE, i, share * stroke) for share in settings.bristles if stroke]
+        if rate is not None:
+            phases = np.arange(settings.phases) * math.pi / settings.phases
+            found += [Law(place, law.chosen, Form.TONE, None, phase, rate) for phase in phases.tolist()]
+    return found
+
+
+def over_all(best: Sequence[Law], laws: Sequence[Law]) -> list[Law]:
+    """The laws with these factors over every other argument that differs from theirs."""
+    arguments = [(law.place, law.chosen) for law in laws if law.form is Form.ONE]
+    return [replace(law, chosen=i) for law in best for place, i in arguments if place == law.place and i != law.chosen]
+
+
+def _stroke(v: Array, time: Array) -> float:
+    """Mean way between two reversals of a speed (n,), in its unit times s; 0 if it is never reversed."""
+    step = np.diff(time)
+    way = float(np.sum((np.abs(v[1:]) * step)[step > 0]))
+    return way / max(int(np.count_nonzero(np.diff(np.sign(v[v != 0])))), 1)
 
 
 def _scaled(z: Array) -> Array:
@@ -206,7 +256,10 @@ def screen(
         if slopes is not None and np.linalg.norm(slopes[1]) > 0:
             found.append(_ranked(law, k, slopes[0], table.with_(slopes[1])))
     count = max(rivals.samples(present), 3.0)
-    scored = [replace(one, score=one.gain - 0.5 * one.curve.edf * math.log(count)) for one in found]
+    sizes = [one.curve.edf + len(one.law.free) for one in found]
+    scored = [
+        replace(one, score=one.gain - 0.5 * size * math.log(count)) for one, size in zip(found, sizes, strict=True)
+    ]
     return sorted(scored, key=lambda one: -one.score)
 
 

@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from pysim.diagnosis.learn.curve import curve_basis
-from pysim.diagnosis.learn.laws import Law, Terms, places, quotient
+from pysim.diagnosis.learn.laws import Form, Law, Terms, places, quotient
 from pysim.diagnosis.learn.screening import distinct
 from pysim.effects import Slot
 from pysim.simulate import Rodas, simulate
@@ -40,17 +40,18 @@ def test_a_sign_changes_within_a_share_of_what_its_variable_does(scale: float) -
     names = {name for place in where for side in place.sides for name in (*side.own, *place.outside)}
     t = np.linspace(0, 20, 2001)
     signals = {name: scale * np.sin((1 + 0.37 * k) * t) for k, name in enumerate(sorted(names))}
-    widths = {law.width for law in distinct(where, signals) if law.is_sign}
+    widths = {law.number for law in distinct(where, signals) if law.form is Form.SIGN}
     assert widths
     assert all(width == pytest.approx(0.02 * scale * np.sqrt(0.5), rel=0.05) for width in widths)
 
 
-@pytest.mark.parametrize(("factor", "is_sign"), [(None, False), (1, False), (1, True)])
-def test_the_compiled_term_is_the_curve_times_its_factor(factor: int | None, is_sign: bool) -> None:
+@pytest.mark.parametrize("form", list(Form))
+def test_the_compiled_term_is_the_curve_times_its_factor(form: Form) -> None:
     own, c = variants("mass"), np.array([0.4, -0.5, 0.3, 0.0, -1.0])
     (place,) = places(own.slots, own.build(())[0])
-    model = own.probed((), Terms((place,), KNOTS.size))
-    law = Law(place, 0, factor, is_sign, 0.05)
+    by = 1 if form in (Form.VARIABLE, Form.SIGN, Form.BRISTLE) else None
+    law = Law(place, 0, form, by, 0.05, 9.0)
+    model = own.probed((), Terms((place,), KNOTS.size, bool(law.free)))
     values = dict(zip(place.coefficients(KNOTS.size), (c / 2).tolist(), strict=True))
     times = np.linspace(0, 4, 81)
     run = Experiment(times, ("x",), {"F": Signal.constant(6.0)})
@@ -58,11 +59,15 @@ def test_the_compiled_term_is_the_curve_times_its_factor(factor: int | None, is_
     found = simulate(model, run, solver=Rodas(1e-8, 1e-8))["x"]
 
     def slope(t: float, s: np.ndarray) -> list[float]:
-        by = 1.0 if factor is None else float(np.tanh(s[1] / 0.05)) if is_sign else float(s[1])
-        term = float(curve_basis(s[:1], KNOTS)[0] @ c) * by
-        return [float(s[1]), 6 - 2 * s[1] - 40 * s[0] + term]
+        x, v, bristle = s.tolist()
+        factor = {
+            Form.ONE: 1.0, Form.VARIABLE: v, Form.SIGN: np.tanh(v / 0.05), Form.BRISTLE: bristle,
+            Form.TONE: np.cos(9 * t + 0.05),
+        }[form]  # fmt: skip
+        term = float(curve_basis(np.array([x]), KNOTS)[0] @ c) * factor
+        return [v, 6 - 2 * v - 40 * x + term, (v - abs(v) * bristle) / 0.05]
 
-    truth = solve_ivp(slope, (0, 4), [0.0, 0.0], t_eval=times, rtol=1e-8, atol=1e-10).y[0]
+    truth = solve_ivp(slope, (0, 4), [0.0, 0.0, 0.0], t_eval=times, rtol=1e-8, atol=1e-10).y[0]
     assert np.ptp(truth) > 0.2
     assert found == pytest.approx(truth, abs=1e-5)
 
