@@ -86,11 +86,9 @@ class LawModel:
     @cached_property
     def problem(self) -> Problem:
         """The compiled model and the measurements. A bristle is not deflected when a log begins."""
-        own, known = (
-            beside(self.present.candidate.problem, self.model, []),
-            self.present.candidate.model.abilities.states,
-        )
-        is_new = np.array([name not in known for name in self.model.abilities.states])
+        before = self.present.candidate
+        own = beside(before.problem, self.model, [])
+        is_new = np.array([name not in before.model.abilities.states for name in self.model.abilities.states])
 
         def held(run: Run) -> Run:
             return replace(run, initial=np.where(is_new, 0.0, run.initial)) if run.initial.size else run

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 
 from pysim.present.notes import USES, listed
@@ -24,9 +25,9 @@ _PER_FACTOR = {
 
 def law_kind(law: LearnedLaw) -> str:
     """What the law gives at its slot: "force", "damping"; "term" and "coefficient of v" where its unit says nothing."""
-    if not law.factor:
+    if not law.factor or law.factor.startswith("cos("):
         return _GIVES.get(law.unit, "term")
-    if re.fullmatch(r"sign\([^()]*\)", law.factor) and law.unit in ("N", "N.m"):
+    if re.fullmatch(r"(sign|bristle)\([^()]*\)", law.factor) and law.unit in ("N", "N.m"):
         return "friction"
     return _PER_FACTOR.get(law.unit, f"coefficient of {law.factor}")
 
@@ -41,7 +42,10 @@ def law_sentence(law: LearnedLaw) -> str:
     """What is missing, how much of the misfit it explains, what it looks like, and what it does to the error."""
     kind = law_kind(law)
     on = "changes with time" if law.argument == "time" else f"depends on {law.argument}"
-    if law.factor and law.is_flat:
+    if memory := _memory(law):
+        size = "of constant size" if law.is_flat else f"whose size {on}"
+        texts = [f"The model lacks a {kind} at {law.slot} {memory}, {size}."]
+    elif law.factor and law.is_flat:
         texts = [f"The model lacks a {kind} at {law.slot} of constant size."]
     elif law.factor:
         texts = [f"The {kind} at {law.slot} is not constant: it {on}."]
@@ -56,3 +60,13 @@ def law_sentence(law: LearnedLaw) -> str:
     if law.alternatives:
         texts.append(f"These data cannot tell it from a law at {listed(law.alternatives)}.")
     return " ".join(texts)
+
+
+def _memory(law: LearnedLaw) -> str:
+    """How a law remembers or hums; "" for other laws."""
+    if bristle := re.fullmatch(r"bristle\(\w+, *([^()]+)\)", law.factor):
+        unit = {"N": " m", "N.m": " rad"}.get(law.unit, "")
+        return f"that remembers, by a bristle of {float(bristle[1]):.3g}{unit}"
+    if tone := re.match(r"cos\(([^*]+)\*time", law.factor):
+        return f"at {float(tone[1]) / (2 * math.pi):.4g} Hz"
+    return ""

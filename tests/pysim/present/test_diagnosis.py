@@ -119,6 +119,8 @@ def test_an_error_that_rises_does_not_fall() -> None:
         ("v", "N.s/m", "damping"),
         ("x", "N/m", "stiffness"),
         ("sign(v)", "N", "friction"),
+        ("bristle(v, 5e-4)", "N", "friction"),
+        ("cos(151.8*time + 0.4)", "N", "force"),
         ("v*x", "N.s/m2", "coefficient of v*x"),
     ],
 )

@@ -1,9 +1,12 @@
 """What is learned from logs of plants whose missing law is known in closed form."""
 
+import math
+from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 from scipy.integrate import odeint
 
@@ -26,21 +29,31 @@ def damped() -> Diagnosis:
     return diagnose(opened({"damper": {"d_2": 60.0}}, ["mass.drag"]))
 
 
-def drifting(clock: bool) -> Session:
-    """A damper that weakens by 0.02 N.s/m a second, whether or not its logs say when they began."""
+# Time on the clock of all logs, state, and deflection of a bristle of 20 mm over its length -> force on the mass, N.
+Force = Callable[[float, float, float, float], float]
+
+
+def on_a_clock(force: Force, *, clock: bool = True) -> Session:
+    """Logs of the mass with a force more, which say when they began if `clock`."""
     data, rng = measured("mass", {}, DESIGN, fit=(1, 2), validate=(3,), length=8.0), np.random.default_rng(5)
     records = []
     for record, seed, begin in zip(data.records, (1, 2, 3), (0.0, 50.0, 25.0), strict=True):
         push, time = wave(seed, PLANTS["mass"].peak, PLANTS["mass"].band), record.data.time
 
         def slope(state: NDArray[np.float64], t: float, push: Command = push, begin: float = begin) -> list[float]:
-            x, v = state.tolist()
-            return [v, (push(t) - (3.0 - 0.02 * (begin + t)) * v - DESIGN["k"] * x) / DESIGN["m"]]
+            x, v, bristle = state.tolist()
+            more = push(t) + force(begin + t, x, v, bristle)
+            return [v, (more - DESIGN["d"] * v - DESIGN["k"] * x) / DESIGN["m"], (v - abs(v) * bristle) / 0.02]
 
-        place = odeint(slope, [0.0, 0.0], time, rtol=1e-9, atol=1e-12)[:, 0] + rng.normal(0, 1e-3, time.size)
+        place = odeint(slope, [0.0, 0.0, 0.0], time, rtol=1e-9, atol=1e-12)[:, 0] + rng.normal(0, 1e-3, time.size)
         values = np.column_stack([[push(t) for t in time.tolist()], place])
         records.append(replace(record, data=replace(record.data, values=values), begin=begin if clock else None))
     return given("mass", replace(data, records=tuple(records)), [], initial="near rest")
+
+
+def drifting(*, clock: bool) -> Session:
+    """A damper that weakens by 0.02 N.s/m a second."""
+    return on_a_clock(lambda t, x, v, bristle: -(1.2 - 0.02 * t) * v, clock=clock)
 
 
 def within_the_band(law: LearnedLaw, truth: NDArray[np.float64]) -> float:
@@ -91,6 +104,33 @@ def test_what_drifts_is_learned_over_time_where_the_logs_say_when_they_began() -
     assert before is not None
     assert after is not None
     assert after < 1.1 < 0.5 * before
+
+
+def test_friction_that_remembers_is_learned_as_a_bristle_whose_size_may_vary() -> None:
+    found = learn(on_a_clock(lambda t, x, v, bristle: -(0.4 + 15 * x**2) * bristle))
+    (law,) = found.learned
+    length = float(law.factor.removeprefix("bristle(v, ").removesuffix(")"))
+    assert (law.slot, law.argument, law.unit) == ("force", "force.x", "N")
+    assert length == pytest.approx(0.02, rel=0.1)
+    assert within_the_band(law, -0.4 - 15 * law.knots**2) > 0.8
+    before, after = found.history[-2].validate, found.history[-1].validate
+    assert before is not None
+    assert after is not None
+    assert after < 1.1 < 0.5 * before
+
+
+def test_a_tone_is_learned_with_its_phase_on_the_clock_of_the_logs() -> None:
+    found = learn(on_a_clock(lambda t, x, v, bristle: 0.5 * math.cos(2 * math.pi * 3.3 * t + 0.7)))
+    (law,) = found.learned
+    rate, phase = map(float, law.factor.removeprefix("cos(").removesuffix(")").split("*time + "))
+    at = (rate - 2 * math.pi * 3.3) * 29 + phase  # rad, in the middle of the fitted logs
+    assert (law.slot, law.unit) == ("force", "N")
+    assert rate == pytest.approx(2 * math.pi * 3.3, rel=1e-3)
+    assert at == pytest.approx(0.7, abs=0.1)
+    assert law.coefficients == pytest.approx(0.5 * np.ones(law.knots.size), rel=0.15)
+    assert found.left.tone is None
+    assert found.history[-1].validate is not None
+    assert found.history[-1].validate < 1.1
 
 
 def test_without_a_clock_no_law_over_time_can_be_told() -> None:
