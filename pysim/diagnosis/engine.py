@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
-from functools import partial
 from pathlib import Path
 
 from pysim.diagnosis import verdict
@@ -254,15 +253,14 @@ def _learned(session: Session, search: Search, found: Found) -> Learning:
         learning = Learner(session, present, floors, search.tried, search.vetoed, search.say.doing).learn()
         if learning.law is not None and final - floors.avoidable(learning.law.fit) > settings.unseats * base:
             break
-    if learning.law is not None and learning.present.candidate.effects:
-        nuisances = learning.present.candidate.nuisances
+    if learning.law is not None and learning.present.names:
         law = without_the_unseated(
             session,
             learning.law,
             learning.present,
             found.base,
             found.losses,
-            partial(search.models.alone, nuisances=nuisances),
+            search.models.alone,
             floors,
             search.tried,
         )

@@ -1,4 +1,4 @@
-"""Whether effects that were found stay in the model beside a learned law.
+"""Whether effects and sensor errors that were found stay in the model beside a learned law.
 
 A law at the slot of an effect, over a variable of the effect's own law, refines the effect and never replaces it: such
 a curve can imitate every effect there. Any other law replaces ("unseats") an effect if the effect is no longer
@@ -21,11 +21,12 @@ from pysim.diagnosis.left import Floors
 from pysim.diagnosis.refit import FinalFit, begin
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
+from pysim.identify.greybox import Nuisance
 from pysim.types import BadInput, Effect
 from pysim.types.answer import GainTest
 
-# Effects -> the candidate with these effects and the sensor errors of the final model.
-Alone = Callable[[Sequence[Effect]], Candidate]
+# Effects and sensor errors -> the candidate with these.
+Alone = Callable[[Sequence[Effect], Sequence[Nuisance]], Candidate]
 
 
 def refines(law: Law, effect: Effect) -> bool:
@@ -48,20 +49,20 @@ def without_the_unseated(
     tried: int,
     settings: LearnSettings | None = None,
 ) -> LawFit:
-    """The refitted law without the effects that it replaces; the least costly effect is tried first.
+    """The refitted law without what it replaces; the effect or sensor error that costs least is tried first.
 
     Args:
-        law: refitted beside all effects of `present`.
+        law: refitted beside all effects and sensor errors of `present`.
         base: the model without effects.
-        losses: effect -> test of what leaving it out of `present` costs.
+        losses: label -> test of what leaving an effect or sensor error out of `present` costs.
         tried: number of comparisons, for the Bonferroni correction.
     """
     settings = settings or LearnSettings()
     best, before, avoidable = law, floors.avoidable(present), floors.avoidable(base)
-    for effect in sorted(present.candidate.effects, key=lambda one: losses[one.name].gain):
-        if refines(law.law, effect):
+    for _, part in sorted(present.candidate.parts.items(), key=lambda item: losses[item[0]].gain):
+        if isinstance(part, Effect) and refines(law.law, part):
             continue
-        smaller = _without(session, best, effect, alone, settings)
+        smaller = _without(session, best, part, alone, settings)
         if smaller is None or avoidable <= 0:
             continue
         better = (before - floors.avoidable(smaller.fit)) / avoidable
@@ -75,13 +76,17 @@ def without_the_unseated(
     return best
 
 
-def _without(session: Session, law: LawFit, effect: Effect, alone: Alone, settings: LearnSettings) -> LawFit | None:
-    """The law in the model without one effect, refitted from its values; None if that does not compile or run."""
+def _without(
+    session: Session, law: LawFit, part: Effect | Nuisance, alone: Alone, settings: LearnSettings
+) -> LawFit | None:
+    """The law in the model without an effect or sensor error, refitted from its values; None if that does not compile
+    or run."""
     assert session.build_law is not None
-    effects = [one for one in law.fit.candidate.effects if one is not effect]
-    values = dict(_kept(law, effect))
+    effects = [one for one in law.fit.candidate.effects if one is not part]
+    nuisances = [one for one in law.fit.candidate.nuisances if one is not part]
+    values = dict(_kept(law, part))
     try:
-        candidate, terms = alone(effects), Terms((law.law.place,), law.knots.size, bool(law.law.free))
+        candidate, terms = alone(effects, nuisances), Terms((law.law.place,), law.knots.size, bool(law.law.free))
         present = begin(candidate, values, law.fit.simulation, law.fit)
         if not present.good:
             return None
@@ -94,8 +99,9 @@ def _without(session: Session, law: LawFit, effect: Effect, alone: Alone, settin
     return ended(settled(found, settings.heat)) if found.fit.good else None
 
 
-def _kept(law: LawFit, effect: Effect) -> Iterator[tuple[str | tuple[str, str], float]]:
+def _kept(law: LawFit, part: Effect | Nuisance) -> Iterator[tuple[str | tuple[str, str], float]]:
     """Key and value of the free parameters of the model and of all effects but one."""
+    name = part.name if isinstance(part, Effect) else ""
     for key, value in law.fit.values.items():
-        if key not in law.own and not (isinstance(key, tuple) and key[0] == effect.name):
+        if key not in law.own and not (isinstance(key, tuple) and key[0] == name):
             yield key, value
