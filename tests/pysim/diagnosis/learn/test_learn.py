@@ -11,10 +11,18 @@ from numpy.typing import NDArray
 from scipy.integrate import odeint
 
 from pysim.diagnosis import Session, diagnose, learn
+from pysim.diagnosis.candidate import Models
+from pysim.diagnosis.checkpoint import Checkpoint
+from pysim.diagnosis.learn.learn import Learner
+from pysim.diagnosis.learn.names import without_the_unseated
+from pysim.diagnosis.progress import Progress
+from pysim.diagnosis.refit import begin, converged
+from pysim.diagnosis.search import Search
+from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.types import NoteCode, answer_data
 from pysim.types.answer import Diagnosis, LearnedLaw, Verdict
 from tests.known_answers.plants import PLANTS, Command, Values, wave
-from tests.pysim.diagnosis.plants import given, measured
+from tests.pysim.diagnosis.plants import FINE, given, measured
 
 DESIGN = {"m": 1.05, "d": 1.8, "k": 42.0}
 
@@ -37,17 +45,17 @@ def on_a_clock(force: Force, *, clock: bool = True) -> Session:
     """Logs of the mass with a force more, which say when they began if `clock`."""
     data, rng = measured("mass", {}, DESIGN, fit=(1, 2), validate=(3,), length=8.0), np.random.default_rng(5)
     records = []
-    for record, seed, begin in zip(data.records, (1, 2, 3), (0.0, 50.0, 25.0), strict=True):
+    for record, seed, since in zip(data.records, (1, 2, 3), (0.0, 50.0, 25.0), strict=True):
         push, time = wave(seed, PLANTS["mass"].peak, PLANTS["mass"].band), record.data.time
 
-        def slope(state: NDArray[np.float64], t: float, push: Command = push, begin: float = begin) -> list[float]:
+        def slope(state: NDArray[np.float64], t: float, push: Command = push, since: float = since) -> list[float]:
             x, v, bristle = state.tolist()
-            more = push(t) + force(begin + t, x, v, bristle)
+            more = push(t) + force(since + t, x, v, bristle)
             return [v, (more - DESIGN["d"] * v - DESIGN["k"] * x) / DESIGN["m"], (v - abs(v) * bristle) / 0.02]
 
         place = odeint(slope, [0.0, 0.0, 0.0], time, rtol=1e-9, atol=1e-12)[:, 0] + rng.normal(0, 1e-3, time.size)
         values = np.column_stack([[push(t) for t in time.tolist()], place])
-        records.append(replace(record, data=replace(record.data, values=values), begin=begin if clock else None))
+        records.append(replace(record, data=replace(record.data, values=values), begin=since if clock else None))
     return given("mass", replace(data, records=tuple(records)), [], initial="near rest")
 
 
@@ -209,3 +217,19 @@ def test_a_law_that_another_log_contradicts_is_vetoed() -> None:
     assert not found.learned
     assert not found.complete
     assert NoteCode.LAW_VETOED in {note.code for note in found.notes}
+
+
+def test_a_sensor_error_that_the_law_makes_needless_is_dropped() -> None:
+    """A delay of the sensor is fitted to what the bristle does; beside the bristle there is none."""
+    opened = on_a_clock(lambda t, x, v, bristle: -0.8 * bristle)
+    search = Search(Models(opened), FINE, opened.settings, Progress(lambda told: None), Checkpoint(None, ""))
+    base, delay = search.fit_base(), Nuisance(NuisanceKind.DELAY, "mass", "x", 0.02)
+    present = converged(begin(search.models.of((), (delay,)), base.values, base.simulation))
+    search.floors = floors = search.floors.with_(base).with_(present)
+    law = Learner(opened, present, floors, 1, search.vetoed, lambda said: None).learn().law
+    assert law is not None
+    assert law.fit.names == ("sensor.delay",)
+    losses = {label: search.test(base, present) for label in present.candidate.labels}
+    left = without_the_unseated(opened, law, present, base, losses, search.models.alone, floors, 1)
+    assert left.fit.names == ()
+    assert left.found.number == pytest.approx(0.02, rel=0.1)
