@@ -35,7 +35,7 @@ class Learns(Enum):
     """When to learn a law that no catalogue has."""
 
     NEVER = "never"
-    IF_MISSING = "if more is missing"
+    IF_MISSING = "if more is missing than a small share of what was"
     ALWAYS = "always"
 
 
@@ -194,7 +194,8 @@ def _answer(
     named: Named = [*untouched, *_kept(found, models, final, search)]
     account = _account(session, found, named, search.fine)
     estimates = held_still(final)[0] if refitted else ()
-    wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and not account.complete)
+    much = found.floors.avoidable(final) > LearnSettings().least * found.floors.avoidable(found.base)
+    wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and much and not account.complete)
     wanted &= session.build_law is not None
     learning = _learned(session, search, found) if wanted and not final.candidate.has_events else None
     if learning is not None and learning.law is not None:

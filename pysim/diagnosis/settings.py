@@ -111,7 +111,8 @@ class LearnSettings:
         49, unit="1", meaning="knots of a curve at most", source="measured: known-answers, a magnet beside the way"
     )
     least: float = setting(
-        0.05, unit="1", meaning="share of the avoidable sum of squares that a law must explain to be kept",
+        0.05, unit="1", meaning="share of the avoidable sum of squares that a law must explain to be kept, and that "
+        "effects must leave of the base model's before a law is learned",
         source="measured: bench-16, where a leakage explains 2 % of a shaft's tone",
     )  # fmt: skip
     near: float = setting(

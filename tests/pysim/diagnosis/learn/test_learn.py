@@ -1,30 +1,16 @@
 """What is learned from logs of plants whose missing law is known in closed form."""
 
-import math
-from collections.abc import Callable
 from dataclasses import replace
 from functools import cache
 
 import numpy as np
-import pytest
-from numpy.typing import NDArray
-from scipy.integrate import odeint
 
 from pysim.diagnosis import Session, diagnose, learn
-from pysim.diagnosis.candidate import Models
-from pysim.diagnosis.checkpoint import Checkpoint
-from pysim.diagnosis.learn.learn import Learner
-from pysim.diagnosis.learn.names import without_the_unseated
-from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import begin, converged
-from pysim.diagnosis.search import Search
-from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.types import NoteCode, answer_data
-from pysim.types.answer import Diagnosis, LearnedLaw, Verdict
-from tests.known_answers.plants import PLANTS, Command, Values, wave
-from tests.pysim.diagnosis.plants import FINE, given, measured
-
-DESIGN = {"m": 1.05, "d": 1.8, "k": 42.0}
+from pysim.types.answer import Diagnosis, Verdict
+from tests.known_answers.plants import Values
+from tests.pysim.diagnosis.learn.clocked import DESIGN, on_a_clock, within_the_band
+from tests.pysim.diagnosis.plants import given, measured
 
 
 def opened(effects: dict[str, Values], names: list[str] | None = None) -> Session:
@@ -37,38 +23,9 @@ def damped() -> Diagnosis:
     return diagnose(opened({"damper": {"d_2": 60.0}}, ["mass.drag"]))
 
 
-# Time on the clock of all logs, state, and deflection of a bristle of 20 mm over its length -> force on the mass, N.
-Force = Callable[[float, float, float, float], float]
-
-
-def on_a_clock(force: Force, *, clock: bool = True) -> Session:
-    """Logs of the mass with a force more, which say when they began if `clock`."""
-    data, rng = measured("mass", {}, DESIGN, fit=(1, 2), validate=(3,), length=8.0), np.random.default_rng(5)
-    records = []
-    for record, seed, since in zip(data.records, (1, 2, 3), (0.0, 50.0, 25.0), strict=True):
-        push, time = wave(seed, PLANTS["mass"].peak, PLANTS["mass"].band), record.data.time
-
-        def slope(state: NDArray[np.float64], t: float, push: Command = push, since: float = since) -> list[float]:
-            x, v, bristle = state.tolist()
-            more = push(t) + force(since + t, x, v, bristle)
-            return [v, (more - DESIGN["d"] * v - DESIGN["k"] * x) / DESIGN["m"], (v - abs(v) * bristle) / 0.02]
-
-        place = odeint(slope, [0.0, 0.0, 0.0], time, rtol=1e-9, atol=1e-12)[:, 0] + rng.normal(0, 1e-3, time.size)
-        values = np.column_stack([[push(t) for t in time.tolist()], place])
-        records.append(replace(record, data=replace(record.data, values=values), begin=since if clock else None))
-    return given("mass", replace(data, records=tuple(records)), [], initial="near rest")
-
-
 def drifting(*, clock: bool) -> Session:
     """A damper that weakens by 0.02 N.s/m a second."""
     return on_a_clock(lambda t, x, v, bristle: -(1.2 - 0.02 * t) * v, clock=clock)
-
-
-def within_the_band(law: LearnedLaw, truth: NDArray[np.float64]) -> float:
-    """Share of the knots at which the truth lies within the 95 percent band, but for what the parameters absorb."""
-    keep = np.eye(law.knots.size) - law.absorbed @ law.absorbed.T
-    half = 1.96 * np.sqrt(np.diag(law.covariance))
-    return float(np.mean(np.abs(keep @ (law.coefficients - truth)) < half))
 
 
 def test_damping_over_position_is_learned_at_its_place_over_its_variables() -> None:
@@ -112,33 +69,6 @@ def test_what_drifts_is_learned_over_time_where_the_logs_say_when_they_began() -
     assert before is not None
     assert after is not None
     assert after < 1.1 < 0.5 * before
-
-
-def test_friction_that_remembers_is_learned_as_a_bristle_whose_size_may_vary() -> None:
-    found = learn(on_a_clock(lambda t, x, v, bristle: -(0.4 + 15 * x**2) * bristle))
-    (law,) = found.learned
-    length = float(law.factor.removeprefix("bristle(v, ").removesuffix(")"))
-    assert (law.slot, law.argument, law.unit) == ("force", "force.x", "N")
-    assert length == pytest.approx(0.02, rel=0.1)
-    assert within_the_band(law, -0.4 - 15 * law.knots**2) > 0.8
-    before, after = found.history[-2].validate, found.history[-1].validate
-    assert before is not None
-    assert after is not None
-    assert after < 1.1 < 0.5 * before
-
-
-def test_a_tone_is_learned_with_its_phase_on_the_clock_of_the_logs() -> None:
-    found = learn(on_a_clock(lambda t, x, v, bristle: 0.5 * math.cos(2 * math.pi * 3.3 * t + 0.7)))
-    (law,) = found.learned
-    rate, phase = map(float, law.factor.removeprefix("cos(").removesuffix(")").split("*time + "))
-    at = (rate - 2 * math.pi * 3.3) * 29 + phase  # rad, in the middle of the fitted logs
-    assert (law.slot, law.unit) == ("force", "N")
-    assert rate == pytest.approx(2 * math.pi * 3.3, rel=1e-3)
-    assert at == pytest.approx(0.7, abs=0.1)
-    assert law.coefficients == pytest.approx(0.5 * np.ones(law.knots.size), rel=0.15)
-    assert found.left.tone is None
-    assert found.history[-1].validate is not None
-    assert found.history[-1].validate < 1.1
 
 
 def test_without_a_clock_no_law_over_time_can_be_told() -> None:
@@ -217,19 +147,3 @@ def test_a_law_that_another_log_contradicts_is_vetoed() -> None:
     assert not found.learned
     assert not found.complete
     assert NoteCode.LAW_VETOED in {note.code for note in found.notes}
-
-
-def test_a_sensor_error_that_the_law_makes_needless_is_dropped() -> None:
-    """A delay of the sensor is fitted to what the bristle does; beside the bristle there is none."""
-    opened = on_a_clock(lambda t, x, v, bristle: -0.8 * bristle)
-    search = Search(Models(opened), FINE, opened.settings, Progress(lambda told: None), Checkpoint(None, ""))
-    base, delay = search.fit_base(), Nuisance(NuisanceKind.DELAY, "mass", "x", 0.02)
-    present = converged(begin(search.models.of((), (delay,)), base.values, base.simulation))
-    search.floors = floors = search.floors.with_(base).with_(present)
-    law = Learner(opened, present, floors, 1, search.vetoed, lambda said: None).learn().law
-    assert law is not None
-    assert law.fit.names == ("sensor.delay",)
-    losses = {label: search.test(base, present) for label in present.candidate.labels}
-    left = without_the_unseated(opened, law, present, base, losses, search.models.alone, floors, 1)
-    assert left.fit.names == ()
-    assert left.found.number == pytest.approx(0.02, rel=0.1)
