@@ -101,12 +101,11 @@ class Learner:
         laws = [law for law in laws if clock or law.argument != TIME]
         self._say(f"trying {len(laws)} laws at {len(models)} places")
         ranked = screen(self._rough, models, laws, signals, self._floors)
-        fits = self._raced(models, ranked)
+        fits = self._raced(models, ranked, ranked)
         if not fits or self._share(fits[0]) < 1 - self._settings.least:
-            with_memory = self._with_memory([law for law in laws if not law.place.sides[0].output_rate], signals)
-            ranked = sorted([*ranked, *with_memory[1]], key=lambda one: -one.score)
-            laws = [*laws, *(one.law for one in with_memory[1])]
-            fits = sorted([*fits, *self._raced(*with_memory)], key=self._scored)
+            others, more = self._with_memory([law for law in laws if not law.place.sides[0].output_rate], signals)
+            ranked, laws = sorted([*ranked, *more], key=lambda one: -one.score), [*laws, *(one.law for one in more)]
+            fits = sorted([*fits, *self._raced(others, more, ranked)], key=self._scored)
         if not fits:
             return Learning(self._present, tuple(ranked), refused=self._refused)
         self._say(f"refitting {fits[0].law.label}")
@@ -151,9 +150,10 @@ class Learner:
         more = screen(self._rough, models, others, signals, self._floors)
         return models, sorted([*best.values(), *more], key=lambda one: -one.score)
 
-    def _raced(self, models: Mapping[str, LawModel], ranked: Sequence[Ranked]) -> list[LawFit]:
-        """Refit the laws near the best one for some iterations, and the finalists for some more; the best first."""
-        chosen = [one for one in ranked if one.score > 0 and one.score >= self._settings.near * ranked[0].score]
+    def _raced(self, models: Mapping[str, LawModel], some: Sequence[Ranked], ranked: Sequence[Ranked]) -> list[LawFit]:
+        """Refit some laws for some iterations, those near the best of all that are ranked, and the finalists for some
+        more; the best first."""
+        chosen = [one for one in some if one.score > 0 and one.score >= self._settings.near * ranked[0].score]
         running: list[LawFit] = []
         for one in chosen[: self._settings.most]:
             self._say(f"refitting {one.law.label}")
