@@ -489,6 +489,7 @@ class Search:
 
     def vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest, without: Pairs = ()) -> GainTest:
         """Check a gain on validation logs and left-out blocks: VETOED if either error grows by more than chance.
+        What brings a misfit down to the noise is not vetoed by left-out blocks: one of them may alone tell its size.
         A law is vetoed too if an effect that was refitted beside the smaller model predicts validation logs better.
 
         Args:
@@ -500,6 +501,7 @@ class Search:
         seen = int(np.sum(share >= self.settings.seen_share)) >= self.settings.seen_blocks
         after, before = (rivals.left_out_error(one, own.blocks, own.level).sum() for one in (own, other))
         vetoed = seen and after - before > rivals.reach(own, other, self.settings.tie)
+        vetoed = vetoed and (self.is_done(smaller) or not self.is_done(larger))
         if held := self._held_out(without or [(smaller, larger)]):
             test, vetoed = replace(test, held_out=held[0]), vetoed or held[0] > held[1]
         table = self._tables.get(frozenset(smaller.candidate.labels)) if larger.candidate.law else None

@@ -56,7 +56,9 @@ def found(peak: float) -> tuple[Search, FinalFit, FinalFit]:
     data = replace(small, records=(small.records[0], other.records[1]))
     models = Models(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
     search = Search(models, FINE, Settings(), Progress(lambda told: None), Checkpoint(None, ""))
-    return search, refitted(models), refitted(models, "frail.drag", values={("frail.drag", "a"): 0.5})
+    base = refitted(models)
+    search.floors = search.floors.with_(base)
+    return search, base, refitted(models, "frail.drag", values={("frail.drag", "a"): 0.5})
 
 
 def test_a_model_that_cannot_run_through_the_choosing_logs_is_vetoed() -> None:
