@@ -53,22 +53,35 @@ def tone_rate(fit: FinalFit, dataset: Dataset, false_alarm: float) -> float | No
         for record in dataset.records
         if isinstance(record.data, Record)
     }
-    times: dict[Channel, list[Array]] = {}
-    rests: dict[Channel, list[Array]] = {}
+    pairs: dict[Channel, list[tuple[Array, Array]]] = {}
     for source, own in logs(fit):
         for channel, rest in own.items():
             if rest.size == clock[source].size:
-                times.setdefault(channel, []).append(clock[source])
-                rests.setdefault(channel, []).append(np.nan_to_num(rest - np.nanmean(rest)))
-    far = 1 / min(float(np.ptp(one)) for own in times.values() for one in own)
-    pairs = [(np.concatenate(times[channel]), np.concatenate(rests[channel])) for channel in times]
-    span = max(float(np.ptp(t)) for t, _ in pairs)
-    grid = 2 * np.pi * (about + np.arange(-far, far, 1 / (8 * span)))
-    power = np.array([sum(abs(np.exp(-1j * w * t) @ r) ** 2 / max(r @ r, 1e-300) for t, r in pairs) for w in grid])
-    best = int(np.clip(np.argmax(power), 1, grid.size - 2))
+                pairs.setdefault(channel, []).append((clock[source], np.nan_to_num(rest - np.nanmean(rest))))
+    whole = np.concatenate([t for own in pairs.values() for t, _ in own])
+    lengths = [float(np.ptp(t)) for own in pairs.values() for t, _ in own]
+    rates = [2 * np.pi * np.arange(about - 1 / min(lengths), about + 1 / min(lengths), 1 / (8 * one))
+             for one in (max(lengths), float(np.ptp(whole)))]  # fmt: skip
+    power = np.sum([periodogram(own, *rates) for own in pairs.values()], axis=0)
+    best = int(np.clip(np.argmax(power), 1, power.size - 2))
     low, middle, high = power[best - 1 : best + 2]
     bend = low - 2 * middle + high
-    return float(grid[best] + (0.5 * (low - high) / bend if bend < 0 else 0.0) * (grid[1] - grid[0]))
+    return float(rates[1][best] + (0.5 * (low - high) / bend if bend < 0 else 0.0) * (rates[1][1] - rates[1][0]))
+
+
+def periodogram(own: list[tuple[Array, Array]], coarse: Array, fine: Array) -> Array:
+    """Periodogram of one signal in all its logs, each with its times, at the fine rates in rad/s, over its squares.
+
+    Relative to the middle of its log a spectrum turns slowly with the rate. So it is computed at the coarse rates
+    alone, and logs that lie days apart cost no more.
+    """
+    found = np.zeros(fine.size, dtype=complex)
+    for t, rest in own:
+        middle = float(t.mean())
+        slow = np.array([np.exp(-1j * rate * (t - middle)) @ rest for rate in coarse])
+        between = np.interp(fine, coarse, slow.real) + 1j * np.interp(fine, coarse, slow.imag)
+        found += np.exp(-1j * fine * middle) * between
+    return np.asarray(np.abs(found) ** 2 / max(sum(float(rest @ rest) for _, rest in own), np.finfo(float).tiny))
 
 
 def clearest(times: Array, rest: Array) -> tuple[float, float] | None:

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from pysim.diagnosis.tone import clearest
+from pysim.diagnosis.tone import clearest, periodogram
 
 RATE, COUNT = 250.0, 7500
 TIMES = np.arange(COUNT) / RATE
@@ -43,3 +43,16 @@ def test_short_and_uneven_logs_tell_nothing() -> None:
     assert clearest(TIMES[:50], rest[:50]) is None
     jitter = TIMES + np.random.default_rng(1).uniform(0, 0.3 / RATE, COUNT)
     assert clearest(jitter, rest) is None
+
+
+def test_the_periodogram_of_logs_a_day_apart_is_that_of_its_definition() -> None:
+    """Its highest point is near the sine's rate; turns between the logs, 1/86400 Hz apart, fit nearly as well."""
+    rng, rate = np.random.default_rng(3), 2 * np.pi * 24.17
+    logs = [(t, np.cos(rate * t + 0.4) + rng.standard_normal(t.size)) for t in (TIMES, TIMES[:5000] + 86400.0)]
+    coarse = rate + 2 * np.pi * np.arange(-0.05, 0.05, 1 / (8 * 30))
+    fine = rate + 2 * np.pi * np.arange(-0.02, 0.02, 1 / (8 * 86420))
+    found = periodogram(logs, coarse, fine)
+    some = slice(None, None, 5000)
+    direct = [abs(sum(np.exp(-1j * w * t) @ rest for t, rest in logs)) ** 2 for w in fine[some].tolist()]
+    assert found[some] * sum(rest @ rest for _, rest in logs) == pytest.approx(direct, abs=0.03 * max(direct))
+    assert abs(fine[np.argmax(found)] - rate) < 2 * np.pi / 30 / 20
