@@ -27,6 +27,7 @@ class Directions:
         states: whether the states at the start are directions too; their columns come first.
         outputs: whether the derivatives of what is recorded are wanted.
         offset: whether the offset of the states is a direction, in place of the states at the start.
+        through: whether the run goes on at events that change neither a state nor its derivative.
     """
 
     parameters: tuple[str, ...] = ()
@@ -34,6 +35,7 @@ class Directions:
     states: bool = False
     outputs: bool = True
     offset: bool = False
+    through: bool = False
 
 
 def variation_arrays(
@@ -56,6 +58,7 @@ def variation_arrays(
         "by_start": by_start,
         "from_start": int(directions.states),
         "parameters": len(parameters),
+        "through": int(directions.through),
         "tolerance": getattr(solver, "derivative_tol", np.inf),
         "start_by": lined(n, width),
         "s": lined(n, width),

@@ -40,9 +40,9 @@ class Offer:
     starts: frozenset[str]
     outputs: bool
 
-    def directions(self, *, states: bool = False, offset: bool = False) -> Directions:
+    def directions(self, *, states: bool = False, offset: bool = False, through: bool = False) -> Directions:
         """All of it as directions of a run."""
-        return Directions(self.parameters, self.starts, states, self.outputs, offset)
+        return Directions(self.parameters, self.starts, states, self.outputs, offset, through)
 
 
 def check_names(function: str, parameters: Sequence[str]) -> tuple[str, ...]:

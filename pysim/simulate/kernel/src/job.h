@@ -158,6 +158,7 @@ typedef struct {
     int64_t derivatives;
     int64_t jacobians;
     int64_t events;
+    int64_t passed;    /* those of them that derivatives went through */
 } Run;
 
 /* Partial derivatives of unknowns by knowns, a directional derivative for each group of knowns of which no unknown depends
@@ -260,6 +261,7 @@ typedef struct {
     int64_t from_start; /* 1: those of start states */
     int64_t parameters; /* n_p */
     int64_t rewind;     /* 1: the FMU is in continuous-time mode already */
+    int64_t through;    /* 1: goes on at events that change neither a state nor its derivative */
     const double *start;    /* (n,) states to start from; null: those of the FMU */
     double *start_by;       /* (n, c) their derivatives */
     const Partials *by_parameters; /* of the derivatives, into `forcing`; a start value is in no equation */
@@ -362,6 +364,7 @@ typedef struct {
     int64_t derivatives;
     int64_t jacobians;
     int64_t events;
+    int64_t passed;
     char *text; /* (LINES, LINE_LENGTH) what the FMU said, where the run failed; null: not wanted */
 } Task;
 

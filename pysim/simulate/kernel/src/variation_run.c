@@ -1,5 +1,11 @@
-/* A run with its derivatives. It stops where an event would make them jump. */
+/* A run with its derivatives. It stops where an event would make them jump.
+
+   At an event whose time depends on a parameter p, S jumps by (f- - f+) dt/dp, and by what the states' own jump depends
+   on (Hiskens, Pai 2000). Where the states stay and f- = f+, S stays. What the model keeps of the event in its discrete
+   variables is not seen here: whoever lets a run go through events compares with a difference. */
 #include "kernel.h"
+
+static const double same_slope = 1e-6; /* change of a derivative that is rounding, of its size and of nominal / span */
 
 /* Starts afresh at run.t: derivatives, first step, K. */
 static int restart(Job *job) {
@@ -69,7 +75,26 @@ static int begin(Job *job) {
     return code == RUNNING ? finish_point(job) : code;
 }
 
-/* Goes on behind a break of the inputs. A jump is an event for the model, harmless where nothing of it changes. */
+/* Handles an event at run.t, where dx is the derivative just before; EVENT where a state or its derivative changes. */
+static int pass_event(Job *job) {
+    Run *run = &job->run;
+    const Work *w = &job->work;
+    copy(w->x_new, w->x, w->n);
+    run->passed++;
+    int code = handle_event(job);
+    if (code != RUNNING) return code;
+    const int status = evaluate(job, run->t, w->x, w->dx_new);
+    run->status = worse((int)run->status, status);
+    if (status > WARNING) return MODEL_ERROR;
+    for (int64_t i = 0; i < w->n; i++) {
+        const double size = larger(fabs(w->dx[i]), fabs(w->dx_new[i])) + w->nominal[i] / (run->end - run->start);
+        if (w->x[i] != w->x_new[i] || fabs(w->dx_new[i] - w->dx[i]) > same_slope * size) return EVENT;
+    }
+    return restart(job);
+}
+
+/* Goes on behind a break of the inputs. A jump is an event for the model, harmless where no state changes: no parameter
+   moves its time. */
 static int pass_break(Job *job) {
     const Work *w = &job->work;
     const bool jump = job->breaks.jumps[job->run.segment] != 0;
@@ -83,11 +108,13 @@ static int pass_break(Job *job) {
     const bool is_offset = offset_here(job);
     int code = is_offset ? offset(job) : RUNNING;
     if (code == RUNNING) code = restart(job);
-    return code == RUNNING && !is_offset && crossed(job, w->z, w->z_new) ? EVENT : code;
+    if (code != RUNNING || is_offset || !crossed(job, w->z, w->z_new)) return code;
+    job->run.passed++;
+    return jump && job->variation.through ? RUNNING : EVENT;
 }
 
 /* Makes the end of the step the current point, passes a break of the inputs there, records. */
-static int arrive(Job *job, double t_new) {
+static int arrive(Job *job, double t_new, bool event) {
     Run *run = &job->run;
     Work *w = &job->work;
     move_time(run, t_new);
@@ -96,8 +123,9 @@ static int arrive(Job *job, double t_new) {
     copy(w->z, w->z_new, w->m);
     if (job->variation.columns > 0) end_variation(job);
     if (job->fmu->terminate) return TERMINATED;
-    if (job->fmu->event || run->t >= run->next_event) return EVENT;
-    const int code = at_break(job) ? pass_break(job) : RUNNING;
+    event = event || job->fmu->event || run->t >= run->next_event;
+    if (event && !(job->variation.through && !at_break(job))) return EVENT;
+    const int code = event ? pass_event(job) : at_break(job) ? pass_break(job) : RUNNING;
     return code == RUNNING ? finish_point(job) : code;
 }
 
@@ -135,26 +163,45 @@ static bool shortened(Job *job, double h) {
     return true;
 }
 
+/* The step of length h from run.t ends at its share theta, at t_new (s). */
+static int end_at(Job *job, double theta, double h, double t_new) {
+    const Work *w = &job->work;
+    if (theta < 1.0) {
+        interpolate(job, theta);
+        copy(w->x_new, w->x_try, w->n);
+        if (job->variation.columns > 0) vary_inside(job, theta, h, job->variation.inside);
+    }
+    return evaluate(job, t_new, w->x_new, w->dx_new);
+}
+
 /* One accepted step, its derivative, and what is recorded in it. */
 static int advance(Job *job) {
     Run *run = &job->run;
     Work *w = &job->work;
-    double h = 0.0, t_new = 0.0;
+    double h = 0.0, t_new = 0.0, theta = 1.0;
+    bool event;
     int status;
     do {
         const int code = accepted_step(job, next_target(job), &h, &t_new);
         if (code != RUNNING) return code;
         run->status = run->status > WARNING ? WARNING : run->status; /* what was rejected is forgiven */
         status = fmi_get_indicators(job->fmu, w->z_new, w->m);
-        if (status <= WARNING && crossed(job, w->z, w->z_new)) return EVENT;
+        event = status <= WARNING && crossed(job, w->z, w->z_new);
+        if (event && !job->variation.through) return EVENT;
         if (status <= WARNING && job->variation.columns > 0) status = vary_step(job, h);
     } while (status <= WARNING && shortened(job, h));
     run->steps++;
+    if (event && status <= WARNING) {
+        dense_coefficients(job, h);
+        status = locate(job, h, &theta);
+        t_new = theta < 1.0 ? run->t + theta * h : t_new;
+    }
     if (status <= WARNING) status = record_rows_inside(job, h, t_new);
+    if (event && status <= WARNING) status = end_at(job, theta, h, t_new);
     if (status <= WARNING) status = set_point(job, t_new, w->x_new);
     if (status <= WARNING) status = fmi_completed_step(job->fmu);
     run->status = worse((int)run->status, status);
-    return status <= WARNING ? arrive(job, t_new) : MODEL_ERROR;
+    return status <= WARNING ? arrive(job, t_new, event) : MODEL_ERROR;
 }
 
 int integrate_variations(Job *job, int64_t budget) {
