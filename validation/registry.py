@@ -145,7 +145,6 @@ CASES: Mapping[str, Case] = MappingProxyType(
             "validation.examples.case",
             "every model that runs by itself against another solver's stored result",
             "circuits",
-            quick=True,
         ),
         "kernel": Case(
             "validation.kernel.case",

@@ -127,6 +127,7 @@ def test_the_curve_is_constant_beyond_its_ends_and_near_its_values_within() -> N
     assert curve_basis(even, even) @ even == pytest.approx(even, abs=0.05)
 
 
+@pytest.mark.slow
 def test_a_class_runs_as_its_law_in_another_importer(lab: tuple[Path, ...], tmp_path: Path) -> None:
     law = learned("force", "v", "x", 0.5, "m", "N.s/m", -2.0)
     effect = keep_law(law, "my.damping", "Lab.Mass", lab, tmp_path)
