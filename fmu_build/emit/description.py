@@ -15,6 +15,7 @@ from fmu_build.errors import BuildError
 from fmu_build.lower.ode_model import DefaultExperiment, OdeModel, ScalarType, Variable
 
 GENERATION_TOOL = "fmu_build"
+REMEMBERING = "remembering"  # annotation: references of what depends on a Real that events set
 LOG_CATEGORIES = {  # as in runtime/src/log.c
     "logStatusError": "Calls that cannot be carried out",
     "logStatusWarning": "Assertions of level warning that do not hold",
@@ -234,6 +235,11 @@ def add_default_experiment(root: Element, experiment: DefaultExperiment) -> None
     given = {name: number(value) for name, value in values.items() if value is not None}
     if given:
         add(root, "DefaultExperiment", **given)
+
+
+def references(rows: Iterable[int]) -> str:
+    """Value references with spaces in between."""
+    return " ".join(map(str, rows))
 
 
 def add_log_categories(root: Element) -> None:

@@ -4,6 +4,7 @@ from xml.etree.ElementTree import Element
 
 from fmu_build.emit.description import (
     GENERATION_TOOL,
+    REMEMBERING,
     Description,
     add,
     add_default_experiment,
@@ -13,6 +14,7 @@ from fmu_build.emit.description import (
     enumerations,
     flag,
     needs_completed_steps,
+    references,
     reinitialised,
     text_of,
     unknown_attributes,
@@ -51,7 +53,10 @@ def fmi3_description(model: OdeModel, about: Description) -> str:
     add_log_categories(root)
     add_default_experiment(root, model.default_experiment)
     _add_variables(root, model)
-    _add_structure(root, model_structure(model))
+    structure = model_structure(model)
+    _add_structure(root, structure)
+    noted = add(add(root, "Annotations"), "Annotation", type=f"{GENERATION_TOOL}.{REMEMBERING}")
+    noted.text = references(structure.remembering)
     return text_of(root)
 
 

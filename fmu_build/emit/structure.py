@@ -25,6 +25,7 @@ class ModelStructure:
     derivatives: tuple[Unknown, ...]  # in the order of x
     event_indicators: tuple[Unknown, ...]
     initial_unknowns: tuple[Unknown, ...]  # by row
+    remembering: tuple[int, ...] = ()  # rows that depend on a Real which an event set and which stays until the next
 
 
 def model_structure(model: OdeModel) -> ModelStructure:
@@ -39,6 +40,7 @@ def model_structure(model: OdeModel) -> ModelStructure:
         derivatives=tuple(frozen.unknown(row) for _, row in states),
         event_indicators=tuple(frozen.unknown(row) for row in indicator_rows(model)),
         initial_unknowns=_initial_unknowns(model, states),
+        remembering=frozen.remembering(),
     )
 
 
@@ -88,6 +90,15 @@ class _Running:
         reached = self._influence.followed(direct)
         rows = tuple(known for known in self._knowns if self._bits[known] & reached)
         return Unknown(row, rows, tuple(self._kind(variable, direct, known) for known in rows))
+
+    def remembering(self) -> tuple[int, ...]:
+        """Rows whose value depends on a Real that events set, conditions included."""
+        s, layout = self._model.symbols, self._expressions.layout
+        counts = {v.index for v in self._model.variables if v.vector == "d" and v.scalar_type is not ScalarType.REAL}
+        held = [k for k in range(s.d.numel()) if k not in counts]
+        bits = sum(layout.bit(vector, k) for vector in ("d", "pre_d") for k in held)
+        reached = (self._influence.followed(self._expressions.mask(one)) for one in self._model.variables)
+        return tuple(row for row, mask in enumerate(reached) if mask & bits)
 
     def _kind(self, variable: Variable, direct: int, known: int) -> str:
         """How the factor of the known variable may change; "dependent" where the relation is not linear."""

@@ -81,17 +81,12 @@ class Found:
     @property
     def slopes(self) -> Array:
         """(n_t, n_y, n_p) derivatives of that by the parameters of the directions."""
-        return self.by_all[:, :, self.tasks.by_offset :]
+        return self.tasks.rows("slopes", self.number)[:, :, self.tasks.by_offset :]
 
     @property
     def by_offset(self) -> Array:
         """(n_t, n_y, n_x) the same by the offset of the states; n_x = 0 where it is no direction."""
-        return self.by_all[:, :, : self.tasks.by_offset]
-
-    @property
-    def by_all(self) -> Array:
-        """(n_t, n_y, n_x + n_p) both, the offset first."""
-        return self.tasks.rows("slopes", self.number)
+        return self.tasks.rows("slopes", self.number)[:, :, : self.tasks.by_offset]
 
     def statistics(self) -> dict[str, int]:
         """Counts of the run, or of the last period."""

@@ -79,6 +79,8 @@ class Abilities:
     initial_dependencies: tuple[tuple[str, frozenset[str] | None], ...] = ()
     feedthrough: tuple[tuple[str, frozenset[str] | None], ...] = ()  # output and inputs it depends on; None: unknown
     stepping: CoSimulation | None = None  # None: model exchange only
+    # Names of variables that depend on a Real which an event set and which is held until the next. None: unknown.
+    remembering: frozenset[str] | None = None
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from pysim.simulate._request import Kind, Request, Take
 from pysim.simulate._run import record_of, run
 from pysim.simulate.esdirk import Esdirk
 from pysim.simulate.kernel.layout import VARIED
-from pysim.simulate.sensitivity.differences import agree, offset_differences, run_differences
+from pysim.simulate.sensitivity.differences import offset_differences, run_differences
 from pysim.simulate.sensitivity.probe import (
     Offer,
     check_names,
@@ -29,11 +29,6 @@ from pysim.simulate.sensitivity.starts import start_slopes
 from pysim.types import BadInput, Experiment, Model, Outcome, Record, SimulationError
 
 Array = NDArray[np.float64]
-
-_WATCHED, _FINE = (
-    2000,
-    1e-6,
-)  # rows, and tolerance, with which derivatives through events are compared with a difference
 
 
 @dataclass(frozen=True)
@@ -76,8 +71,8 @@ def sensitivities(
     The derivatives are those of the steps themselves (internal numerical differentiation): exact for the computed
     solution but for the choice of the steps, so their error falls with the tolerance as the solution's does. A column
     for which the FMU offers no directional derivative comes from central differences of tight runs, and so do all
-    columns of a run with state or time events that change a state or its derivative. A run is differentiated through
-    other events, as those of a counter; a difference along all columns at once confirms it at the first such run.
+    columns of a run with state or time events. An FMU built here says what depends on numbers that events leave behind;
+    where slopes and recorded variables do not, a run goes on through events that change neither a state nor a slope.
 
     Args:
         model: a model-exchange FMU; left unchanged.
@@ -173,7 +168,9 @@ def run_in(library: Opened, ask: Ask, progress: Progress | None) -> tuple[Sensit
         takes = ask.takes if ask.takes and record in whole else (None,) * len(experiments)
         requests = [Request(experiments[i], start_by=starts[i], take=takes[i]) for i in numbers]
         watch = later(progress, len(ready), len(experiments)) if record in whole else None
-        found |= zip(numbers, _varied(library, ask, offer, requests, watch), strict=True)
+        through = _goes_through_events(library.model, record)
+        kind = Kind(VARIED, solver, offer.directions(offset=ask.offset, through=through))
+        found |= zip(numbers, run_tasks(library, kind, requests, workers=count, progress=watch), strict=True)
         ready += [i for i in numbers if record in whole and found[i].done]
     tasks = [
         partial(_one, library, ask, e, offers[e.record], starts[i], found.get(i)) for i, e in enumerate(experiments)
@@ -184,37 +181,10 @@ def run_in(library: Opened, ask: Ask, progress: Progress | None) -> tuple[Sensit
     return tuple(results[i] if i in results else task(lambda: False) for i, task in enumerate(tasks))
 
 
-def _varied(library: Opened, ask: Ask, offer: Offer, requests: list[Request], progress: Progress | None) -> list[Found]:
-    """The kernel's runs of experiments that record the same; through events if a difference confirms the first ones."""
-
-    def runs(solver: Esdirk, some: list[Request], through: bool, watch: Progress | None = None) -> list[Found]:
-        kind = Kind(VARIED, solver, offer.directions(offset=ask.offset, through=through))
-        return run_tasks(library, kind, some, workers=ask.workers, progress=watch)
-
-    if not requests:
-        return []
-    key = "through events", requests[0].experiment.record, ask.names, ask.offset
-    found = runs(ask.solver, requests, library.known.get(key, True), progress)
-    passed = [request for request, one in zip(requests, found, strict=True) if one.done and one.number_of("passed")]
-    if not passed or key in library.known:
-        return found
-    seen = [replace(request, experiment=_thinned(request.experiment), take=None) for request in passed]
-    library.known[key] = all(
-        agree(library, request.experiment, ask.solver, offer.parameters, one.by_all)
-        for request, one in zip(seen, runs(_fine(ask.solver), seen, True), strict=True)
-    )
-    return found if library.known[key] else runs(ask.solver, requests, False, progress)
-
-
-def _fine(solver: Esdirk) -> Esdirk:
-    """A solver whose derivatives are good enough to be compared with a difference."""
-    return replace(solver, rtol=min(solver.rtol, _FINE), atol=min(solver.atol, _FINE), derivative_tol=_FINE**0.5)
-
-
-def _thinned(experiment: Experiment) -> Experiment:
-    """The experiment with no more than `_WATCHED` rows, the last among them."""
-    every = -(-experiment.times.size // _WATCHED)
-    return replace(experiment, times=experiment.times[::-every][::-1])
+def _goes_through_events(model: Model, record: tuple[str, ...]) -> bool:
+    """Whether no event leaves behind a number that slopes or recorded variables depend on, as far as the FMU says."""
+    memory = model.abilities.remembering
+    return memory is not None and memory.isdisjoint((*model.abilities.derivatives, *record))
 
 
 def _one(

@@ -158,7 +158,6 @@ typedef struct {
     int64_t derivatives;
     int64_t jacobians;
     int64_t events;
-    int64_t passed;    /* those of them that derivatives went through */
 } Run;
 
 /* Partial derivatives of unknowns by knowns, a directional derivative for each group of knowns of which no unknown depends
@@ -364,7 +363,6 @@ typedef struct {
     int64_t derivatives;
     int64_t jacobians;
     int64_t events;
-    int64_t passed;
     char *text; /* (LINES, LINE_LENGTH) what the FMU said, where the run failed; null: not wanted */
 } Task;
 

@@ -19,7 +19,7 @@ void note_run(Job *job, Task *task, int code) {
     task->code = code;
     task->status = run->status, task->reached = run->t;
     task->steps = run->steps, task->rejected = run->rejected, task->derivatives = run->derivatives;
-    task->jacobians = run->jacobians, task->events = run->events, task->passed = run->passed;
+    task->jacobians = run->jacobians, task->events = run->events;
     if (code == DONE || code == EVENT || !task->text) return;
     const int64_t first = log->count > LINES ? log->count - LINES : 0;
     for (int64_t i = first; i < log->count; i++)

@@ -1,8 +1,8 @@
 /* A run with its derivatives. It stops where an event would make them jump.
 
    At an event whose time depends on a parameter p, S jumps by (f- - f+) dt/dp, and by what the states' own jump depends
-   on (Hiskens, Pai 2000). Where the states stay and f- = f+, S stays. What the model keeps of the event in its discrete
-   variables is not seen here: whoever lets a run go through events compares with a difference. */
+   on (Hiskens, Pai 2000). Where the states stay and f- = f+, S stays, unless slopes depend on a number that the event
+   left behind. Whoever lets a run go through events knows that they do not. */
 #include "kernel.h"
 
 static const double same_slope = 1e-6; /* change of a derivative that is rounding, of its size and of nominal / span */
@@ -75,15 +75,15 @@ static int begin(Job *job) {
     return code == RUNNING ? finish_point(job) : code;
 }
 
-/* Handles an event at run.t, where dx is the derivative just before; EVENT where a state or its derivative changes. */
+/* Handles an event at run.t; EVENT where a state or its derivative changes. */
 static int pass_event(Job *job) {
     Run *run = &job->run;
     const Work *w = &job->work;
     copy(w->x_new, w->x, w->n);
-    run->passed++;
-    int code = handle_event(job);
+    int status = evaluate(job, run->t, w->x, w->dx); /* a step leaves what Newton left of it */
+    const int code = status <= WARNING ? handle_event(job) : MODEL_ERROR;
     if (code != RUNNING) return code;
-    const int status = evaluate(job, run->t, w->x, w->dx_new);
+    status = evaluate(job, run->t, w->x, w->dx_new);
     run->status = worse((int)run->status, status);
     if (status > WARNING) return MODEL_ERROR;
     for (int64_t i = 0; i < w->n; i++) {
@@ -108,9 +108,8 @@ static int pass_break(Job *job) {
     const bool is_offset = offset_here(job);
     int code = is_offset ? offset(job) : RUNNING;
     if (code == RUNNING) code = restart(job);
-    if (code != RUNNING || is_offset || !crossed(job, w->z, w->z_new)) return code;
-    job->run.passed++;
-    return jump && job->variation.through ? RUNNING : EVENT;
+    const bool harmless = is_offset || (jump && job->variation.through);
+    return code == RUNNING && !harmless && crossed(job, w->z, w->z_new) ? EVENT : code;
 }
 
 /* Makes the end of the step the current point, passes a break of the inputs there, records. */
@@ -163,15 +162,11 @@ static bool shortened(Job *job, double h) {
     return true;
 }
 
-/* The step of length h from run.t ends at its share theta, at t_new (s). */
-static int end_at(Job *job, double theta, double h, double t_new) {
-    const Work *w = &job->work;
-    if (theta < 1.0) {
-        interpolate(job, theta);
-        copy(w->x_new, w->x_try, w->n);
-        if (job->variation.columns > 0) vary_inside(job, theta, h, job->variation.inside);
-    }
-    return evaluate(job, t_new, w->x_new, w->dx_new);
+/* The step of length h from run.t ends at its share theta. */
+static void end_at(Job *job, double theta, double h) {
+    interpolate(job, theta);
+    copy(job->work.x_new, job->work.x_try, job->work.n);
+    if (job->variation.columns > 0) vary_inside(job, theta, h, job->variation.inside);
 }
 
 /* One accepted step, its derivative, and what is recorded in it. */
@@ -197,7 +192,7 @@ static int advance(Job *job) {
         t_new = theta < 1.0 ? run->t + theta * h : t_new;
     }
     if (status <= WARNING) status = record_rows_inside(job, h, t_new);
-    if (event && status <= WARNING) status = end_at(job, theta, h, t_new);
+    if (theta < 1.0) end_at(job, theta, h);
     if (status <= WARNING) status = set_point(job, t_new, w->x_new);
     if (status <= WARNING) status = fmi_completed_step(job->fmu);
     run->status = worse((int)run->status, status);

@@ -3,6 +3,7 @@
 A ramp x = r t passes p at T = p/r. Behind it y' is what a law says, and a parameter moves y as the closed form says.
 """
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 
 from pysim.simulate import Esdirk, Sensitivities, sensitivities, sensitivities_many
 from pysim.types import Experiment, Model, Signal
+from tests.pysim.simulate.fixture_fmus import OSCILLATOR
 from tests.pysim.simulate.text_models import RELAY, text_model
 
 R, P, TIMES = 0.8, 0.5, np.linspace(0.0, 2.0, 41)
@@ -17,7 +19,7 @@ BEHIND = np.maximum(TIMES - P / R, 0.0)  # s since the ramp passed p
 TIGHT = Esdirk(1e-8, 1e-8, derivative_tol=1e-6)
 
 
-def ramp(law: str, tmp_path: Path, declared: str = "", events: str = "") -> Model:
+def ramp(law: str, tmp_path: Path, declared: str = "", events: str = "", fmi: int = 2) -> Model:
     return text_model(
         f"""model Ramp
   parameter Real r = {R};
@@ -32,6 +34,7 @@ equation
 end Ramp;
 """,
         tmp_path,
+        fmi=fmi,
     )
 
 
@@ -101,3 +104,28 @@ def test_a_recorded_time_of_an_event_comes_from_differences(tmp_path):
     found = by_p_and_r(ramp("0", tmp_path, "output Real last(start=0, fixed=true);", held), ("last",))
     np.testing.assert_allclose(found.by_parameter[:, 0, 0], np.sign(BEHIND) / R, atol=1e-6)
     assert not found.exact
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_an_fmu_says_what_depends_on_a_number_that_an_event_left(tmp_path, fixture_model, fmi):
+    events = "when x > p then te = time; n = 1; end when;"
+    declared = "discrete Real te(start=0, fixed=true); Integer n(start=0, fixed=true);"
+    model = ramp("n*x", tmp_path, f"{declared} Real since = time - te;", events, fmi)
+    assert model.abilities.remembering == {"te", "since"}
+    (tmp_path / "slope").mkdir()
+    slope = ramp("if x > p then time - te else 0", tmp_path / "slope", declared, events, fmi)
+    assert slope.abilities.remembering == {"te", "der(y)"}
+    assert fixture_model(OSCILLATOR, fmi).abilities.remembering is None
+
+
+def test_without_that_word_every_event_makes_differences(tmp_path):
+    model = ramp("if x > p then x - p else 0", tmp_path)
+    silent = replace(model, abilities=replace(model.abilities, remembering=None))
+    assert not by_p_and_r(silent).exact
+
+
+def test_sampling_that_nothing_depends_on(tmp_path):
+    clock = "when sample(0.05, 0.05) then n = pre(n) + 1; end when;"
+    found = by_p_and_r(ramp("p*x - 100*(y^3 + y)", tmp_path, "Integer n(start=0, fixed=true);", clock))
+    assert found.exact
+    assert found.record.statistics["events"] >= 38
