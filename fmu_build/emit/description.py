@@ -8,14 +8,13 @@ from xml.etree.ElementTree import Element
 
 from fmu_build.emit.influence import Layout, direct_influence
 from fmu_build.emit.names import structured
-from fmu_build.emit.structure import Unknown
+from fmu_build.emit.structure import ModelStructure, Unknown
 from fmu_build.emit.table import derivative_rows
 from fmu_build.emit.units import BASE_UNITS, Unit, conversion, parse_unit
 from fmu_build.errors import BuildError
 from fmu_build.lower.ode_model import DefaultExperiment, OdeModel, ScalarType, Variable
 
 GENERATION_TOOL = "fmu_build"
-REMEMBERING = "remembering"  # annotation: references of what depends on a Real that events set
 LOG_CATEGORIES = {  # as in runtime/src/log.c
     "logStatusError": "Calls that cannot be carried out",
     "logStatusWarning": "Assertions of level warning that do not hold",
@@ -237,9 +236,10 @@ def add_default_experiment(root: Element, experiment: DefaultExperiment) -> None
         add(root, "DefaultExperiment", **given)
 
 
-def references(rows: Iterable[int]) -> str:
-    """Value references with spaces in between."""
-    return " ".join(map(str, rows))
+def add_memory(annotation: Element, structure: ModelStructure) -> None:
+    """Value references of what depends on more than states, inputs and parameters tell."""
+    held, delayed = (" ".join(map(str, rows)) for rows in (structure.held, structure.delayed))
+    add(annotation, "memory", held=held, delayed=delayed)
 
 
 def add_log_categories(root: Element) -> None:

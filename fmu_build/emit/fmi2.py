@@ -5,17 +5,16 @@ from xml.etree.ElementTree import Element
 
 from fmu_build.emit.description import (
     GENERATION_TOOL,
-    REMEMBERING,
     Description,
     add,
     add_default_experiment,
     add_items,
     add_log_categories,
+    add_memory,
     add_units,
     enumerations,
     flag,
     needs_completed_steps,
-    references,
     reinitialised,
     text_of,
     unknown_attributes,
@@ -54,8 +53,7 @@ def fmi2_description(model: OdeModel, about: Description) -> str:
     _add_types(root, model)
     add_log_categories(root)
     add_default_experiment(root, model.default_experiment)
-    tool = add(add(root, "VendorAnnotations"), "Tool", name=GENERATION_TOOL)
-    add(tool, REMEMBERING).text = references(structure.remembering)
+    add_memory(add(add(root, "VendorAnnotations"), "Tool", name=GENERATION_TOOL), structure)
     _add_variables(root, model)
     _add_structure(root, structure)
     return text_of(root)

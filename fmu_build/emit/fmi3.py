@@ -4,17 +4,16 @@ from xml.etree.ElementTree import Element
 
 from fmu_build.emit.description import (
     GENERATION_TOOL,
-    REMEMBERING,
     Description,
     add,
     add_default_experiment,
     add_items,
     add_log_categories,
+    add_memory,
     add_units,
     enumerations,
     flag,
     needs_completed_steps,
-    references,
     reinitialised,
     text_of,
     unknown_attributes,
@@ -55,8 +54,7 @@ def fmi3_description(model: OdeModel, about: Description) -> str:
     _add_variables(root, model)
     structure = model_structure(model)
     _add_structure(root, structure)
-    noted = add(add(root, "Annotations"), "Annotation", type=f"{GENERATION_TOOL}.{REMEMBERING}")
-    noted.text = references(structure.remembering)
+    add_memory(add(add(root, "Annotations"), "Annotation", type=GENERATION_TOOL), structure)
     return text_of(root)
 
 

@@ -25,7 +25,8 @@ class ModelStructure:
     derivatives: tuple[Unknown, ...]  # in the order of x
     event_indicators: tuple[Unknown, ...]
     initial_unknowns: tuple[Unknown, ...]  # by row
-    remembering: tuple[int, ...] = ()  # rows that depend on a Real which an event set and which stays until the next
+    held: tuple[int, ...] = ()  # rows that depend on a Real which an event set and which stays until the next
+    delayed: tuple[int, ...] = ()  # rows that depend on what delay() remembers
 
 
 def model_structure(model: OdeModel) -> ModelStructure:
@@ -40,7 +41,8 @@ def model_structure(model: OdeModel) -> ModelStructure:
         derivatives=tuple(frozen.unknown(row) for _, row in states),
         event_indicators=tuple(frozen.unknown(row) for row in indicator_rows(model)),
         initial_unknowns=_initial_unknowns(model, states),
-        remembering=frozen.remembering(),
+        held=frozen.held(),
+        delayed=frozen.delayed(),
     )
 
 
@@ -91,12 +93,19 @@ class _Running:
         rows = tuple(known for known in self._knowns if self._bits[known] & reached)
         return Unknown(row, rows, tuple(self._kind(variable, direct, known) for known in rows))
 
-    def remembering(self) -> tuple[int, ...]:
+    def held(self) -> tuple[int, ...]:
         """Rows whose value depends on a Real that events set, conditions included."""
         s, layout = self._model.symbols, self._expressions.layout
         counts = {v.index for v in self._model.variables if v.vector == "d" and v.scalar_type is not ScalarType.REAL}
         held = [k for k in range(s.d.numel()) if k not in counts]
-        bits = sum(layout.bit(vector, k) for vector in ("d", "pre_d") for k in held)
+        return self._reaching(sum(layout.bit(vector, k) for vector in ("d", "pre_d") for k in held))
+
+    def delayed(self) -> tuple[int, ...]:
+        """Rows whose value depends on a delayed one."""
+        return self._reaching(self._expressions.layout.vector_mask("v", self._model.symbols.v.numel()))
+
+    def _reaching(self, bits: int) -> tuple[int, ...]:
+        """Rows whose value depends on one of these symbols."""
         reached = (self._influence.followed(self._expressions.mask(one)) for one in self._model.variables)
         return tuple(row for row, mask in enumerate(reached) if mask & bits)
 

@@ -123,7 +123,8 @@ def _abilities(d: ModelDescription, path: Path, states: tuple[str, ...]) -> Abil
         initial_dependencies=tuple((u.variable.name, _dependencies(u)) for u in d.initialUnknowns),
         feedthrough=tuple((u.variable.name, _inputs(u)) for u in d.outputs),
         stepping=_stepping(d),
-        remembering=_remembering(d, path),
+        held=_memory(d, path, "held"),
+        delayed=_memory(d, path, "delayed"),
     )
 
 
@@ -156,16 +157,15 @@ def _dependencies(unknown: Unknown) -> frozenset[str] | None:
     return None if unknown.dependencies is None else frozenset(v.name for v in unknown.dependencies)
 
 
-def _remembering(d: ModelDescription, path: Path) -> frozenset[str] | None:
-    """What an FMU of ours says of it in an annotation."""
+def _memory(d: ModelDescription, path: Path, kind: str) -> frozenset[str] | None:
+    """What an FMU built here says of it in an annotation."""
     with zipfile.ZipFile(path) as archive:
         root = ElementTree.fromstring(archive.read("modelDescription.xml"))
-    found = root.find("./VendorAnnotations/Tool[@name='fmu_build']/remembering")
-    if found is None:
-        found = root.find("./Annotations/Annotation[@type='fmu_build.remembering']")
+    places = "./VendorAnnotations/Tool[@name='fmu_build']/memory", "./Annotations/Annotation[@type='fmu_build']/memory"
+    found = next((one for place in places if (one := root.find(place)) is not None), None)
     if found is None:
         return None
-    references = {int(one) for one in (found.text or "").split()}
+    references = {int(one) for one in found.get(kind, "").split()}
     return frozenset(v.name for v in d.modelVariables if v.valueReference in references)
 
 

@@ -79,8 +79,10 @@ class Abilities:
     initial_dependencies: tuple[tuple[str, frozenset[str] | None], ...] = ()
     feedthrough: tuple[tuple[str, frozenset[str] | None], ...] = ()  # output and inputs it depends on; None: unknown
     stepping: CoSimulation | None = None  # None: model exchange only
-    # Names of variables that depend on a Real which an event set and which is held until the next. None: unknown.
-    remembering: frozenset[str] | None = None
+    # Names of variables that depend on a Real which an event set and which is held until the next, and of those that
+    # depend on delayed values. None: unknown.
+    held: frozenset[str] | None = None
+    delayed: frozenset[str] | None = None
 
 
 @dataclass(frozen=True)

@@ -130,7 +130,10 @@ def probe(library: Opened, experiment: Experiment, solver: Esdirk, parameters: S
     derivatives by the states are wrong, for every column is made of them.
     """
     model = library.model
-    if not model.abilities.directional_derivatives:
+    remembers = not (model.abilities.delayed or frozenset()).isdisjoint(
+        (*model.abilities.derivatives, *experiment.record)
+    )
+    if remembers or not model.abilities.directional_derivatives:  # what moves a delayed value lies in the past
         return _NOTHING
     once = at_rest(experiment)
     (first,) = points(library, solver, Directions(outputs=False), [Request(once)])

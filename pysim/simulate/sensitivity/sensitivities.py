@@ -183,8 +183,8 @@ def run_in(library: Opened, ask: Ask, progress: Progress | None) -> tuple[Sensit
 
 def _goes_through_events(model: Model, record: tuple[str, ...]) -> bool:
     """Whether no event leaves behind a number that slopes or recorded variables depend on, as far as the FMU says."""
-    memory = model.abilities.remembering
-    return memory is not None and memory.isdisjoint((*model.abilities.derivatives, *record))
+    held = model.abilities.held
+    return held is not None and held.isdisjoint((*model.abilities.derivatives, *record))
 
 
 def _one(

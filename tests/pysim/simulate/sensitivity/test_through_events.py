@@ -111,16 +111,16 @@ def test_an_fmu_says_what_depends_on_a_number_that_an_event_left(tmp_path, fixtu
     events = "when x > p then te = time; n = 1; end when;"
     declared = "discrete Real te(start=0, fixed=true); Integer n(start=0, fixed=true);"
     model = ramp("n*x", tmp_path, f"{declared} Real since = time - te;", events, fmi)
-    assert model.abilities.remembering == {"te", "since"}
+    assert model.abilities.held == {"te", "since"}
     (tmp_path / "slope").mkdir()
     slope = ramp("if x > p then time - te else 0", tmp_path / "slope", declared, events, fmi)
-    assert slope.abilities.remembering == {"te", "der(y)"}
-    assert fixture_model(OSCILLATOR, fmi).abilities.remembering is None
+    assert slope.abilities.held == {"te", "der(y)"}
+    assert fixture_model(OSCILLATOR, fmi).abilities.held is None
 
 
 def test_without_that_word_every_event_makes_differences(tmp_path):
     model = ramp("if x > p then x - p else 0", tmp_path)
-    silent = replace(model, abilities=replace(model.abilities, remembering=None))
+    silent = replace(model, abilities=replace(model.abilities, held=None))
     assert not by_p_and_r(silent).exact
 
 
@@ -129,3 +129,12 @@ def test_sampling_that_nothing_depends_on(tmp_path):
     found = by_p_and_r(ramp("p*x - 100*(y^3 + y)", tmp_path, "Integer n(start=0, fixed=true);", clock))
     assert found.exact
     assert found.record.statistics["events"] >= 38
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
+def test_what_depends_on_a_delayed_value_comes_from_differences(tmp_path, fmi):
+    model = ramp("delay(p*x, 0.3)", tmp_path, fmi=fmi)  # y = p r (t - 0.3)^2 / 2
+    assert model.abilities.delayed == {"der(y)"}
+    found = by_p_and_r(model)
+    np.testing.assert_allclose(found.by_parameter[:, 0, 0], R * np.maximum(TIMES - 0.3, 0.0) ** 2 / 2, atol=1e-5)
+    assert not found.exact
