@@ -81,6 +81,7 @@ static int pass_event(Job *job) {
     const Work *w = &job->work;
     copy(w->x_new, w->x, w->n);
     int status = evaluate(job, run->t, w->x, w->dx); /* a step leaves what Newton left of it */
+    run->status = worse((int)run->status, status);
     const int code = status <= WARNING ? handle_event(job) : MODEL_ERROR;
     if (code != RUNNING) return code;
     status = evaluate(job, run->t, w->x, w->dx_new);
