@@ -104,13 +104,14 @@ def _abilities(d: ModelDescription, path: Path, states: tuple[str, ...]) -> Abil
     kind = d.modelExchange or d.coSimulation
     if kind is None:
         raise BadInput(f"{path} offers neither model exchange nor co-simulation; export it with one of them")
-    derivatives = [u.variable for u in d.derivatives]
+    derivatives, ours = [u.variable for u in d.derivatives], (d.generationTool or "").startswith("fmu_build ")
+    root = _root(path) if ours or d.fmiMajorVersion == 3 else None
     return Abilities(
         fmi=d.fmiMajorVersion,
         model_exchange=d.modelExchange is not None,
         co_simulation=d.coSimulation is not None,
         directional_derivatives=kind.providesDirectionalDerivative
-        or _provides_derivatives_3(path, type(kind).__name__),
+        or (root is not None and _provides_derivatives_3(root, type(kind).__name__)),
         state_handling=kind.canGetAndSetFMUstate,
         event_indicators=d.numberOfEventIndicators,
         states=states,
@@ -123,8 +124,7 @@ def _abilities(d: ModelDescription, path: Path, states: tuple[str, ...]) -> Abil
         initial_dependencies=tuple((u.variable.name, _dependencies(u)) for u in d.initialUnknowns),
         feedthrough=tuple((u.variable.name, _inputs(u)) for u in d.outputs),
         stepping=_stepping(d),
-        held=_memory(d, path, "held"),
-        delayed=_memory(d, path, "delayed"),
+        **(_memory(d, root) if root is not None and ours else {}),
     )
 
 
@@ -157,23 +157,32 @@ def _dependencies(unknown: Unknown) -> frozenset[str] | None:
     return None if unknown.dependencies is None else frozenset(v.name for v in unknown.dependencies)
 
 
-def _memory(d: ModelDescription, path: Path, kind: str) -> frozenset[str] | None:
-    """What an FMU built here says of it in an annotation."""
-    with zipfile.ZipFile(path) as archive:
-        root = ElementTree.fromstring(archive.read("modelDescription.xml"))
-    places = "./VendorAnnotations/Tool[@name='fmu_build']/memory", "./Annotations/Annotation[@type='fmu_build']/memory"
-    found = next((one for place in places if (one := root.find(place)) is not None), None)
-    if found is None:
-        return None
-    references = {int(one) for one in found.get(kind, "").split()}
-    return frozenset(v.name for v in d.modelVariables if v.valueReference in references)
+def _root(path: Path) -> ElementTree.Element:
+    """modelDescription.xml itself, for what FMPy 0.3.32 does not look for.
 
-
-def _provides_derivatives_3(path: Path, kind: str) -> bool:
-    """FMI 3 writes providesDirectionalDerivatives, with an s that FMPy 0.3.32 does not look for."""
+    Raises:
+        BadInput: it is not in the encoding that it names, such as UTF-16 that calls itself UTF-8.
+    """
     with zipfile.ZipFile(path) as archive:
         try:
-            element = ElementTree.fromstring(archive.read("modelDescription.xml")).find(kind)
-        except (ElementTree.ParseError, LookupError, ValueError) as error:  # such as UTF-16 that calls itself UTF-8
+            return ElementTree.fromstring(archive.read("modelDescription.xml"))
+        except (ElementTree.ParseError, LookupError, ValueError) as error:
             raise BadInput(f"{path}: its modelDescription.xml cannot be read: {error}; export it in UTF-8") from error
+
+
+def _memory(d: ModelDescription, root: ElementTree.Element) -> dict[str, frozenset[str]]:
+    """What an FMU built here says in an annotation of what depends on held and on delayed values; else nothing."""
+    tool = root.find("./VendorAnnotations/Tool[@name='fmu_build']/memory")
+    found = tool if tool is not None else root.find("./Annotations/Annotation[@type='fmu_build']/memory")
+    if found is None:
+        return {}
+    references = {kind: {int(one) for one in found.get(kind, "").split()} for kind in ("held", "delayed")}
+    return {
+        kind: frozenset(v.name for v in d.modelVariables if v.valueReference in own) for kind, own in references.items()
+    }
+
+
+def _provides_derivatives_3(root: ElementTree.Element, kind: str) -> bool:
+    """FMI 3 writes providesDirectionalDerivatives, with an s."""
+    element = root.find(kind)
     return element is not None and element.get("providesDirectionalDerivatives") in ("true", "1")

@@ -123,6 +123,11 @@ def _piece_at(signal: Signal, time: float) -> Signal:
 _NOTHING = Offer((), frozenset(), False)
 
 
+def counts(model: Model, record: tuple[str, ...], names: frozenset[str]) -> bool:
+    """Whether a slope or a recorded variable is among these names."""
+    return not names.isdisjoint((*model.abilities.derivatives, *record))
+
+
 def probe(library: Opened, experiment: Experiment, solver: Esdirk, parameters: Sequence[str]) -> Offer | None:
     """Ask the FMU, at the experiment's start, for every derivative that is wanted; None where it cannot be started.
 
@@ -130,10 +135,8 @@ def probe(library: Opened, experiment: Experiment, solver: Esdirk, parameters: S
     derivatives by the states are wrong, for every column is made of them.
     """
     model = library.model
-    remembers = not (model.abilities.delayed or frozenset()).isdisjoint(
-        (*model.abilities.derivatives, *experiment.record)
-    )
-    if remembers or not model.abilities.directional_derivatives:  # what moves a delayed value lies in the past
+    delayed = model.abilities.delayed  # what moves such a value lies in the past
+    if (delayed and counts(model, experiment.record, delayed)) or not model.abilities.directional_derivatives:
         return _NOTHING
     once = at_rest(experiment)
     (first,) = points(library, solver, Directions(outputs=False), [Request(once)])

@@ -23,6 +23,7 @@ from pysim.simulate.sensitivity.probe import (
     Offer,
     check_names,
     check_parameters,
+    counts,
     probe_each,
 )
 from pysim.simulate.sensitivity.starts import start_slopes
@@ -168,7 +169,8 @@ def run_in(library: Opened, ask: Ask, progress: Progress | None) -> tuple[Sensit
         takes = ask.takes if ask.takes and record in whole else (None,) * len(experiments)
         requests = [Request(experiments[i], start_by=starts[i], take=takes[i]) for i in numbers]
         watch = later(progress, len(ready), len(experiments)) if record in whole else None
-        through = _goes_through_events(library.model, record)
+        held = library.model.abilities.held  # numbers that events leave behind
+        through = held is not None and not counts(library.model, record, held)
         kind = Kind(VARIED, solver, offer.directions(offset=ask.offset, through=through))
         found |= zip(numbers, run_tasks(library, kind, requests, workers=count, progress=watch), strict=True)
         ready += [i for i in numbers if record in whole and found[i].done]
@@ -179,12 +181,6 @@ def run_in(library: Opened, ask: Ask, progress: Progress | None) -> tuple[Sensit
     others = side_by_side([tasks[i] for i in left], count, later(progress, len(ready), len(experiments)))
     results = dict(zip(left, others, strict=True))
     return tuple(results[i] if i in results else task(lambda: False) for i, task in enumerate(tasks))
-
-
-def _goes_through_events(model: Model, record: tuple[str, ...]) -> bool:
-    """Whether no event leaves behind a number that slopes or recorded variables depend on, as far as the FMU says."""
-    held = model.abilities.held
-    return held is not None and held.isdisjoint((*model.abilities.derivatives, *record))
 
 
 def _one(
