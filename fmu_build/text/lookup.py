@@ -1,6 +1,7 @@
 """Modelica's name lookup among the classes of libraries and files: enclosing classes, bases and imports."""
 
 import difflib
+import os
 import re
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from itertools import accumulate
@@ -21,10 +22,11 @@ class Libraries:
     """
 
     def __init__(self, places: Sequence[Path]) -> None:
-        self.places = [Path(place) for place in places]
+        self.places = list(dict.fromkeys(Path(place) for place in places))
         self._by_full_name: dict[str, ClassText | None] = {}
         self._resolved: dict[tuple[str, str], ClassText | None] = {}
-        self._files = [place for place in self.places if not place.is_dir()]  # where any class may stand
+        self._holding: dict[str, list[Path]] = {}
+        self._listed: dict[Path, frozenset[str]] = {}
         self._in_bases_of: set[str] = set()  # guards against a base that is looked up in its own bases
 
     def classes(self, word: str = "") -> Iterator[ClassText]:
@@ -162,20 +164,33 @@ class Libraries:
 
     def _read(self, name: str) -> ClassText | None:
         parts = split_name(name)
-        around = self._by_full_name.get(name[: -len(parts[-1]) - 1])
-        may_hold_it = [*self._files, *(place for place in self.places if place.name == parts[0])]
-        if len(may_hold_it) == 1 and around is not None and around.source.file.name != "package.mo":
-            return around.classes.get(parts[-1])  # no file has to be looked for
-        for place in self.places:
-            if place.is_dir() and place.name == parts[0]:
-                found = _inside(*file_of(place, parts[1:]))
-            elif place.is_file():
-                found = _inside(place, parts, "")
-            else:
-                continue
+        around, places = self._by_full_name.get(name[: -len(parts[-1]) - 1]), self._places_of(parts[0])
+        if len(places) == 1 and around is not None and not self._may_have_a_file(parts[-1], around.source.file):
+            return around.classes.get(parts[-1])
+        for place in places:
+            found = _inside(*file_of(place, parts[1:])) if place.is_dir() else _inside(place, parts, "")
             if found is not None:
                 return found
         return None
+
+    def _places_of(self, first: str) -> list[Path]:
+        """Where classes may stand whose full names begin so: a library of that name, and files that declare it."""
+        if first not in self._holding:
+            self._holding[first] = [
+                place
+                for place in self.places
+                if (place.is_dir() and place.name == first) or (place.is_file() and first in read_file(place))
+            ]
+        return self._holding[first]
+
+    def _may_have_a_file(self, name: str, around: Path) -> bool:
+        """Whether a class may stand in a file or folder of its own, beside the file of the class around it."""
+        folder = around.parent
+        if around.name != "package.mo":
+            return False
+        if folder not in self._listed:
+            self._listed[folder] = frozenset(os.listdir(folder))
+        return not self._listed[folder].isdisjoint((name, f"{name}.mo"))
 
 
 def is_use(declaration: Declaration) -> bool:
