@@ -1,4 +1,4 @@
-"""What other tools take from the library: scales of states, equations they need not differentiate, FMUs that pass."""
+"""What other tools take from the library: equations they need not differentiate, and FMUs that pass the check."""
 
 import re
 from functools import cache
@@ -39,10 +39,8 @@ RUNNABLE = [
     if name.removeprefix("HydraulicTestBench.") not in INSIDE_OTHERS
 ]
 WITH_A_WIRE = (
-    "Crane.IdealCompensation",
-    "Crane.HydraulicCompensation",
-    "Validation.WireDrop",
-    "Validation.PayloadFall",
+    *(pytest.param(f"Crane.{name}", marks=pytest.mark.slow) for name in ("IdealCompensation", "HydraulicCompensation")),
+    *("Validation.WireDrop", "Validation.PayloadFall"),
 )
 
 QUIET = [check for check in CHECKS if not check.startswith("call order")]
@@ -54,28 +52,8 @@ def subject(name: str) -> Subject:
     return read_subject(build(name))
 
 
-@cache
 def lowered(name: str) -> OdeModel:
     return lower(load(name, [bundled_library()], {}), ())
-
-
-def _marked(name: str) -> object:
-    """Those of many states, which are those of the others once more, take their time."""
-    within = ("Energy", "Rig", "SwashPlateControl", "LockedGreyBox", "TestBench")
-    long = ".Examples." in name or ".Crane." in name or name.endswith(within)
-    return pytest.param(name, marks=pytest.mark.slow if long else ())
-
-
-ALL = [_marked(name) for name in RUNNABLE]
-
-
-@pytest.mark.parametrize("name", ALL)
-def test_every_state_has_a_scale(name: str) -> None:
-    """An importer multiplies its tolerance by it; the number 1 that stands for a missing one may be far off."""
-    variables = lowered(name).variables
-    nominals = {v.name: v.nominal for v in variables}
-    missing = [v.derivative_of for v in variables if v.derivative_of and nominals[v.derivative_of] is None]
-    assert missing == []
 
 
 @pytest.fixture
@@ -92,10 +70,10 @@ def differentiated(monkeypatch: pytest.MonkeyPatch) -> list[ca.SX]:
     return found
 
 
-@pytest.mark.parametrize("name", [_marked(f"HydraulicTestBench.{name}") for name in WITH_A_WIRE])
+@pytest.mark.parametrize("name", WITH_A_WIRE)
 def test_a_wire_needs_no_index_reduction(name: str, differentiated: list[ca.SX]) -> None:
     """Two variables that a connection makes equal are one variable; no other equation is differentiated."""
-    lower(load(name, [bundled_library()], {}), ())
+    lowered(f"{BASE}.{name}")
     laws = [str(residual) for residual in differentiated if not _is_equality(residual)]
     assert laws == []
 
@@ -108,7 +86,7 @@ def _is_equality(residual: ca.SX) -> bool:
 
 
 def test_the_crane_in_a_swell_shows_its_payloads() -> None:
-    variables = lowered("HydraulicTestBench.Examples.ActiveHeave").variables
+    variables = lowered(f"{BASE}.Examples.ActiveHeave").variables
     outputs = {v.name: v.unit for v in variables if v.causality == "output"}
     assert outputs == {"z_v": "m", "z_active": "m", "z_passive": "m"}
 

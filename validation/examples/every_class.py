@@ -1,4 +1,8 @@
-"""Every model and block of the library compiled: alone where it can stand alone, inside another where it cannot."""
+"""Every model and block of the library compiled: alone where it can stand alone, inside another where it cannot.
+
+Each state needs a nominal value: an importer multiplies its tolerance by it, and the 1 that stands for a missing one
+may be far off.
+"""
 
 from __future__ import annotations
 
@@ -11,7 +15,8 @@ from pathlib import Path
 import fmu_build
 from fmu_build.build import bundled_library
 from pysim.effects import STANDARD_LIBRARY, fitting, read_catalogue, variant
-from pysim.types import Effect
+from pysim.io import read_model
+from pysim.types import Effect, Model
 from validation.findings import Finding
 
 BASES = ("HydraulicTestBench.Pump.FreeGreyBox", "HydraulicTestBench.LoadCircuit.OpenTestBench")
@@ -26,7 +31,7 @@ _NEEDS_SIZES = re.compile(r"unresolved component dimension")
 
 
 def run() -> Iterator[Finding]:
-    """How many compile alone, and that no other is in none of them."""
+    """How many compile alone, that no other is in none of them, and that each of their states has a scale."""
     alone, others, refused = _compiled()
     for name, why in refused.items():
         yield Finding(f"{name} does not compile: {why}", 1.0, 0.0, "")
@@ -36,6 +41,15 @@ def run() -> Iterator[Finding]:
     yield Finding(claim, float(len(left)), 0.0, "in none")
     for name in left:
         yield Finding(f"{name} is in none that compiles: {others[name]}", 1.0, 0.0, "")
+    unscaled = [state for name in alone for state in without_a_scale(read_model(fmu_build.build(name)))]
+    yield Finding("states of these without a nominal value", float(len(unscaled)), 0.0, "")
+    for state in unscaled:
+        yield Finding(f"{state} has no nominal value", 1.0, 0.0, "")
+
+
+def without_a_scale(model: Model) -> list[str]:
+    """States for which the FMU says no nominal value."""
+    return [f"{model.name}.{name}" for name in model.abilities.states if model[name].nominal is None]
 
 
 def _compiled() -> tuple[list[str], dict[str, str], dict[str, str]]:
