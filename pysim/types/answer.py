@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from pysim.types._frozen import FrozenMapping
 from pysim.types.effect import Effect
 from pysim.types.errors import BadInput
+from pysim.types.factor import Factor
 from pysim.types.fit import HALF_95, Direction, Estimate, RecordFit, ResponseFit
 from pysim.types.note import Note
 
@@ -264,7 +265,7 @@ class LearnedLaw:
 
     Args:
         slot: place in the model.
-        factor: variable z2 and what is done with it; "" for 1.
+        factor: of the curve h: a variable z2 and what is done with it, or 1.
         argument: variable z1.
         knots: (m,) increasing, in `argument_unit`.
         coefficients: (m,) value of h at each, in `unit`.
@@ -279,11 +280,10 @@ class LearnedLaw:
         parameters: free numbers of the model, by name, refitted beside the law.
         test: against the model without it; None where it was not refitted to the end.
         held_out: rms over floor of the logs that may choose, without the law and with it; None where there are none.
-        sign_width: within which a sign in the factor changes, in its variable's unit.
     """
 
     slot: str
-    factor: str
+    factor: Factor
     argument: str
     knots: Array
     coefficients: Array
@@ -299,7 +299,6 @@ class LearnedLaw:
     parameters: Mapping[str, float] = field(default_factory=dict)
     test: GainTest | None = None
     held_out: tuple[float | None, float | None] = (None, None)
-    sign_width: float = 1.0
 
     def __post_init__(self) -> None:
         for name in ("knots", "coefficients", "covariance", "absorbed"):

@@ -10,6 +10,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from pysim.types.answer import Diagnosis, ErrorStep, Failure, FoundEffect, LearnedLaw, Left, NextTest, Rival
+from pysim.types.factor import Factor, Form
 from pysim.types.json_number import json_data
 from pysim.types.note import NoteCode
 
@@ -138,8 +139,7 @@ def law_data(law: LearnedLaw) -> Json:
         "slot": law.slot,
         "share": law.share,
         "depends_on": law.argument,
-        "factor": law.factor,
-        "sign_width": law.sign_width,
+        **_factor(law.factor),
         "shape": shape,
         "formula": law.formula,
         "alike": law.alternatives,
@@ -147,11 +147,19 @@ def law_data(law: LearnedLaw) -> Json:
     }
 
 
+def _factor(factor: Factor) -> Json:
+    is_sign = factor.form is Form.SIGN
+    return {
+        "factor": str(factor),
+        "sign_of": factor.variable if is_sign else None,
+        "sign_width": factor.number if is_sign else None,
+    }
+
+
 def _learned(law: LearnedLaw) -> Json:
     return {
         "slot": law.slot,
-        "factor": law.factor,
-        "sign_width": law.sign_width if law.factor.startswith("sign(") else None,
+        **_factor(law.factor),
         "argument": law.argument,
         "range": law.knots[[0, -1]] if law.knots.size else None,
         "knots": law.knots,

@@ -151,9 +151,8 @@ class _Curve:
         argument = str(learned["depends_on"]).removeprefix(f"{place.slot.name}.")
         (gives, *others), shape = place.slot.gives, learned["shape"]
         needs = {name for name in law.needs(gives) if name in place.units}
-        factor = str(learned["factor"])
-        sign = factor[len("sign(") : -1] if factor.startswith("sign(") else ""
-        if others or (factor and not sign) or not needs <= {argument, sign} or len(shape["argument"]) < 2:
+        sign = str(learned.get("sign_of") or "")
+        if others or (learned["factor"] and not sign) or not needs <= {argument, sign} or len(shape["argument"]) < 2:
             return None
         units = str(shape["argument_unit"]), str(shape["unit"])
         knots, wanted, low, high = (np.array(shape[key], float) for key in ("argument", "value", "low", "high"))

@@ -25,6 +25,7 @@ from pysim.types import (
     RecordFit,
     Rival,
 )
+from pysim.types.factor import Factor
 
 OFFSET = Effect(
     "toy.offset",
@@ -94,8 +95,8 @@ def step(name: str, fit: float, validate: float | None, magnitude: float) -> Err
 
 
 LAW = LearnedLaw(
-    "force", "", "v", np.linspace(-1, 1, 11), -0.4 * np.sign(np.linspace(-1, 1, 11)), 0.05**2 * np.eye(11), 0.97, "m/s",
-    "N", formula="-0.4 sign(v)",
+    "force", Factor(), "v", np.linspace(-1, 1, 11), -0.4 * np.sign(np.linspace(-1, 1, 11)), 0.05**2 * np.eye(11), 0.97,
+    "m/s", "N", formula="-0.4 sign(v)",
 )  # fmt: skip
 
 

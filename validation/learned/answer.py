@@ -18,6 +18,7 @@ from pysim.diagnosis import Session, diagnose
 from pysim.diagnosis.learn.curve import curve_basis
 from pysim.types import Dataset, Effect
 from pysim.types.answer import Diagnosis, LearnedLaw
+from pysim.types.factor import Form
 from pysim.workflow.learned import with_laws
 from validation.asked import PUMP, Step, steps_of
 from validation.batch import Line, serve
@@ -111,7 +112,7 @@ def answer(case: LearnedCase, ask: Callable[[Session], Diagnosis] = diagnose) ->
     first = found.learned[0] if found.learned else None
     return Answer(
         case.name,
-        tuple(f"{law.slot}: {law.factor + '*' if law.factor else ''}h({law.argument})" for law in found.learned),
+        tuple(f"{law.slot}: {str(law.factor) and f'{law.factor}*'}h({law.argument})" for law in found.learned),
         tuple(one.effect.name for one in found.effects),
         first.formula if first else "",
         *_right(case, found.learned, effects),
@@ -167,13 +168,13 @@ def _right(case: LearnedCase, learned: Sequence[LearnedLaw], effects: Sequence[E
 
 def _fits(law: LearnedLaw, words: Sequence[tuple[str, ...]]) -> bool:
     """Whether each group of words is met, and nothing is beside them."""
-    used = {_bare(law, law.argument), *([_bare(law, law.factor)] if law.factor else [])}
+    used = {_bare(law, law.argument), *([_bare(law, law.factor.variable)] if law.factor.variable else [])}
     return all(used & set(group) for group in words) and used <= {word for group in words for word in group}
 
 
 def _bare(law: LearnedLaw, name: str) -> str:
     """A variable as the cases call it."""
-    own = name.removeprefix("sign(").removesuffix(")").removeprefix(f"{law.slot}.")
+    own = name.removeprefix(f"{law.slot}.")
     return _ALIKE.get(own, own)
 
 
@@ -185,8 +186,8 @@ def band(case: LearnedCase, law: LearnedLaw) -> float | None:
     form, curve = case.kind.form, case.kind.curve
     if curve is None or law.slot not in case.kind.places[0]:
         return None
-    factor, argument = _bare(law, law.factor) if law.factor else "", _bare(law, law.argument)
-    signed = law.factor.startswith("sign(")
+    factor, argument = _bare(law, law.factor.variable), _bare(law, law.argument)
+    signed = law.factor.form is Form.SIGN
     if (f"sign({factor})" if signed else factor, argument) != form:
         return None
     true = case.parameters()

@@ -8,10 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnosis.learn.basis import Smoothness, bends, lines, missed
-from pysim.diagnosis.learn.laws import TIME, Form, Law, quotient
+from pysim.diagnosis.learn.laws import TIME, Law, quotient
 from pysim.diagnosis.learn.learn import Learning
 from pysim.types import Model
 from pysim.types.answer import LearnedLaw
+from pysim.types.factor import Form
 from pysim.types.fit import HALF_95
 
 Array = NDArray[np.float64]
@@ -74,10 +75,7 @@ def _law(law: Law, model: Model, knots: Array, values: Array) -> LearnedLaw:
         unit = quotient(unit, model[factor].unit or "1")
     empty = np.zeros((knots.size, knots.size))
     argument_unit = "s" if argument == TIME else model[argument].unit or "1"
-    return LearnedLaw(
-        law.place.name, law.factor, argument, knots, values, empty, 0.0, argument_unit, unit,
-        sign_width=law.number if law.form is Form.SIGN else 1.0,
-    )  # fmt: skip
+    return LearnedLaw(law.place.name, law.factor, argument, knots, values, empty, 0.0, argument_unit, unit)
 
 
 def _with(law: LearnedLaw, known: Known, unit: float) -> LearnedLaw:

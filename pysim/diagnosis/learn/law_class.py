@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_build.text import class_text
-from fmu_build.text.expressions import names_in, parse
+from fmu_build.text.expressions import parse
 from fmu_build.text.write import quoted
 from pysim.diagnosis.learn.curve import CURVE, RAMP, SLOPE, widths
 from pysim.diagnosis.learn.formula import REACH, Formula, rounded_up
@@ -20,6 +20,7 @@ from pysim.effects import VENDOR, Filling, Slot, filling, parameter_text, slot_u
 from pysim.effects.law import check_units, dimension, dimension_words
 from pysim.types import BadInput, Effect, EffectParameter
 from pysim.types.answer import LearnedLaw
+from pysim.types.factor import Factor, Form
 
 Array = NDArray[np.float64]
 
@@ -42,10 +43,9 @@ def law_class(
     constant. A signal that the slot does not have becomes an input, which `pysim.effects.variant` connects.
 
     Args:
-        law: its factor and argument are variables of the slot, `v` or `SLOT.v`, other signals of the model, or `time`.
-            The factor is "" for 1, or an expression: `v`; `sign(v)`, which is smoothed; `bristle(v, 5e-4)`, the state
-            of a Dahl friction with this bristle length; `cos(151.8*time)`. If the slot gives several variables of
-            one kind, `q1` and `q2`, each gets the same curve: over `p1` for `q1`, and over `p2` for `q2`.
+        law: its argument is a variable of the slot, `v` or `SLOT.v`, another signal of the model, or `time`. If the
+            slot gives several variables of one kind, `q1` and `q2`, each gets the same curve: over `p1` for `q1`, and
+            over `p2` for `q2`.
         slot: the slot that it fills, as `pysim.effects.slots` reads it from a model.
         name: of the class.
         libraries: contain the slot's present class and its partial class.
@@ -126,9 +126,9 @@ class _Writer:
         self._law, self._slot, self._formula, self._coefficients = law, slot, formula, coefficients
         self._units: Mapping[str, str | None] = slot_units(slot, libraries)
         self._outside: dict[str, str] = {}  # local name -> signal of the model
-        self._bristles: dict[str, float] = {}  # speed -> length
+        self._bristle: tuple[str, float] | None = None  # speed and length
         self.argument = self._local(law.argument)
-        self._factor = self._expression(law.factor)
+        self._factor = self._factor_text(law.factor)
         self._knots, self._widths = f"{self.argument}_k", f"{self.argument}_w"
         self._check()
 
@@ -142,32 +142,22 @@ class _Writer:
         self._outside[local] = name
         return local
 
-    def _expression(self, factor: str) -> str:
-        """The factor with local names, smooth signs, and bristle states for `bristle(...)`; "" for 1."""
-        if not factor:
-            return ""
-        try:
-            names = sorted(set(names_in(parse(factor))), key=len, reverse=True)
-        except ValueError as error:
-            raise BadInput(f"learned law at {self._slot.name}: the factor {factor!r}: {error}") from error
-        for name in names:
-            factor = re.sub(rf"(?<![\w.]){re.escape(name)}(?![\w.(])", self._local(name), factor)
-        factor = re.sub(r"\bsign\(([\w.]+)\)", lambda found: self._smooth_sign(found[1]), factor)
-        return re.sub(r"\bbristle\((\w+), *([\d.e+-]+)\)", lambda found: self._bristle(found[1], found[2]), factor)
-
-    def _smooth_sign(self, name: str) -> str:
-        return f"tanh({name}/{self._law.sign_width:g})"
-
-    def _bristle(self, speed: str, length: str) -> str:
-        if len([one for one in self._slot.gives if not one.endswith("_t")]) > 1:
-            raise BadInput(f"learned law at {self._slot.name}: it has two sides, which cannot share a bristle")
-        self._bristles[speed] = float(length)
-        return f"{speed}_bristle"
+    def _factor_text(self, factor: Factor) -> str:
+        """The factor with local names, a smooth sign, or the state of a bristle; "" for 1."""
+        name = self._local(factor.variable) if factor.variable else ""
+        if factor.form is Form.SIGN:
+            return f"tanh({name}/{factor.number:g})"
+        if factor.form is Form.BRISTLE:
+            if len([one for one in self._slot.gives if not one.endswith("_t")]) > 1:
+                raise BadInput(f"learned law at {self._slot.name}: it has two sides, which cannot share a bristle")
+            self._bristle = name, float(f"{factor.number:.4g}")
+            return f"{name}_bristle"
+        return str(replace(factor, variable=name))
 
     def _check(self) -> None:
         """Raise BadInput unless the curve's unit times the factor's is the slot's; units that are not SI pass."""
         law, slot = self._law, self._slot
-        bristles = {f"{speed}_bristle": "1" for speed in self._bristles}
+        bristles = {f"{self._bristle[0]}_bristle": "1"} if self._bristle else {}
         known = {**self._units, **dict.fromkeys(self._outside), **bristles, "time": None}
         for one, unit in known.items():
             known[one] = unit if unit is not None and _is_si(unit) else None
@@ -209,8 +199,7 @@ class _Writer:
     def term(self, side: _Side) -> str:
         """The expression that is added to a side's variable."""
         curve = self._curve()
-        factor = self._factor if re.fullmatch(r"[\w.]+|tanh\([^()]*\)", self._factor) else f"({self._factor})"
-        return self._on(side, f"{curve}*{factor}" if self._factor else curve)
+        return self._on(side, f"{curve}*{self._factor}" if self._factor else curve)
 
     def rate(self, side: _Side) -> str:
         """Time derivative of the term; raises BadInput if the slot lacks a rate that it needs."""
@@ -233,7 +222,8 @@ class _Writer:
             unit = f'(unit="{self._law.argument_unit}")' if local == self.argument else ""
             note = f"annotation({VENDOR}(signal={quoted(signal)}))"
             found.append(f"input Real {local}{unit} {quoted(f'{signal} of the model')} {note}")
-        for speed, length in self._bristles.items():
+        if self._bristle:
+            speed, length = self._bristle
             unit = (self._units.get(speed) or "1/s").removesuffix("/s")
             bounds = (length / REACH, length * REACH, length)
             own = EffectParameter(f"{speed}_length", unit, *bounds, length, None, "Length of the bristle (Dahl 1968)")
@@ -250,11 +240,11 @@ class _Writer:
 
     @property
     def equations(self) -> list[str]:
-        """Differential equations of the bristle states (Dahl 1968)."""
-        return [
-            f"{speed}_length*der({speed}_bristle) = {speed} - noEvent(abs({speed}))*{speed}_bristle"
-            for speed in self._bristles
-        ]
+        """Differential equation of the bristle's state (Dahl 1968)."""
+        if self._bristle is None:
+            return []
+        speed = self._bristle[0]
+        return [f"{speed}_length*der({speed}_bristle) = {speed} - noEvent(abs({speed}))*{speed}_bristle"]
 
     def protected(self, rates: bool) -> list[str]:
         """Constants and functions of the curve: knots, widths of corners, and `slope` if there are `rates`."""

@@ -2,11 +2,8 @@
 
 A law is `factor*h(argument)`, added to a variable that a slot computes. h is the curve of `curve.py`. The argument is a
 variable of the slot ("force.x"), another variable of the model, or `time` on the common clock of all records. The
-factor is "" for 1, or has one of these forms:
-
-- "v", a variable of the slot, or "sign(v)", its smooth sign;
-- "bristle(v, 5e-4)", the deflection of a bristle over its length: it follows the speed v, and remembers (Dahl 1968);
-- "cos(151.8*time + 0.4)", a tone on the common clock.
+factor is 1, a variable of the slot or its smooth sign, a bristle that follows a speed and remembers, or a tone
+(`pysim.types.factor`).
 
 If a slot has two sides, `q1` over `p1` and `q2` over `p2`, both get the same curve, and the law has the names of the
 first side.
@@ -22,7 +19,6 @@ import math
 import re
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from enum import Enum
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,21 +26,12 @@ from numpy.typing import NDArray
 from pysim.diagnosis.learn.curve import widths
 from pysim.effects import Slot
 from pysim.types import Model
+from pysim.types.factor import Factor, Form
 
 Array = NDArray[np.float64]
 
 TIME = "time"  # of the model, which runs on the common clock of all records
 _SPEEDS = ("m/s", "rad/s")  # units of the variables that may pull on a bristle
-
-
-class Form(Enum):
-    """What the factor of a law is."""
-
-    ONE = "1"
-    VARIABLE = "a variable"
-    SIGN = "the smooth sign of a variable"
-    BRISTLE = "the deflection of a bristle that a speed pulls"
-    TONE = "a cosine of time"
 
 
 def wrapped(base: str, term: Terms, name: str) -> str:
@@ -136,18 +123,10 @@ class Law:
         return self.place.arguments[self.chosen]
 
     @property
-    def factor(self) -> str:
-        """The factor in the form of `LearnedLaw`."""
-        if self.form is Form.BRISTLE:
-            return f"bristle({self._variable}, {self.number:.4g})"
-        if self.form is Form.TONE:
-            return f"cos({self.rate:.7g}*time + {self.number % (2 * math.pi):.4g})"
-        return f"sign({self._variable})" if self.form is Form.SIGN else self._variable
-
-    @property
-    def _variable(self) -> str:
-        """Name of the factor's variable in the slot; "" without one."""
-        return "" if self.by is None else self.place.sides[0].own[self.by].removeprefix(f"{self.place.name}.")
+    def factor(self) -> Factor:
+        """The factor, with the name of its variable in the slot."""
+        variable = "" if self.by is None else self.place.sides[0].own[self.by].removeprefix(f"{self.place.name}.")
+        return Factor(self.form, variable, self.number, self.rate)
 
     @property
     def free(self) -> tuple[str, ...]:
@@ -164,8 +143,9 @@ class Law:
     @property
     def label(self) -> str:
         """The law as text, such as "force: sign(v) * h(force.x)", without the number of its factor."""
-        forms = {Form.BRISTLE: f"bristle({self._variable})", Form.TONE: f"tone({self.rate / (2 * math.pi):.4g} Hz)"}
-        factor = forms.get(self.form, self.factor)
+        own = self.factor
+        forms = {Form.BRISTLE: f"bristle({own.variable})", Form.TONE: f"tone({self.rate / (2 * math.pi):.4g} Hz)"}
+        factor = forms.get(self.form, str(own))
         return f"{self.place.name}: {factor + ' * ' if factor else ''}h({self.argument})"
 
     def seen(self, side: Side) -> tuple[str, str]:

@@ -27,6 +27,7 @@ from pysim.identify.greybox.residuals import Channel
 from pysim.simulate import simulate_many
 from pysim.types import BadInput, Experiment, Model, Outcome, Signal
 from pysim.types.answer import LearnedLaw
+from pysim.types.factor import Factor
 
 Array = NDArray[np.float64]
 
@@ -70,7 +71,7 @@ def outside_laws(present: FinalFit, floors: Mapping[Channel, float]) -> tuple[Le
             curve, gain, share = first_order(own, k)
             known = covariance_of(curve.gram, curve.smoothness, curve.values, 1.0)
             law = LearnedLaw(
-                place, "", name, k, curve.values / own.size, known.covariance / own.size**2, share, unit, given,
+                place, Factor(), name, k, curve.values / own.size, known.covariance / own.size**2, share, unit, given,
                 known.absorbed, curve.edf,
             )  # fmt: skip
             score = gain - 0.5 * curve.edf * math.log(count)

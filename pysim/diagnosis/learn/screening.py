@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.learn.basis import Curve, knots, solve
-from pysim.diagnosis.learn.laws import TIME, Form, Law, Place, samples
+from pysim.diagnosis.learn.laws import TIME, Law, Place, samples
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.settings import LearnSettings
@@ -24,6 +24,7 @@ from pysim.identify.greybox.problem import beside
 from pysim.identify.greybox.residuals import Carried, Channel
 from pysim.simulate import Rodas, simulate_many
 from pysim.types import Model, Outcome
+from pysim.types.factor import Form
 
 Array = NDArray[np.float64]
 

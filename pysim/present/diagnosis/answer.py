@@ -184,7 +184,7 @@ def _laws(diagnosis: Diagnosis) -> Iterator[str]:
         return
     yield "Laws learned from the data"
     for law in diagnosis.laws[:_ROWS]:
-        formula = f"  {formula_text(law.formula, law.factor, law.unit)}".rstrip()
+        formula = f"  {formula_text(law.formula, str(law.factor), law.unit)}".rstrip()
         yield f"  {law.slot}: {law_kind(law)} over {law.argument}, {share_text(law.share)} of the misfit{formula}"
     yield from _curve(diagnosis.laws[0])
 

@@ -7,6 +7,7 @@ import re
 
 from pysim.present.notes import USES, listed
 from pysim.types import LearnedLaw
+from pysim.types.factor import Form
 
 ABSORBED = "up to a level or slope that the model's own parameters do as well"  # how far such a curve is known
 # What a law gives, by its unit: alone, and per unit of its factor.
@@ -25,9 +26,10 @@ _PER_FACTOR = {
 
 def law_kind(law: LearnedLaw) -> str:
     """What the law gives at its slot: "force", "damping"; "term" and "coefficient of v" where its unit says nothing."""
-    if not law.factor or law.factor.startswith("cos("):
+    form = law.factor.form
+    if form in (Form.ONE, Form.TONE):
         return _GIVES.get(law.unit, "term")
-    if re.fullmatch(r"(sign|bristle)\([^()]*\)", law.factor) and law.unit in ("N", "N.m"):
+    if form in (Form.SIGN, Form.BRISTLE) and law.unit in ("N", "N.m"):
         return "friction"
     return _PER_FACTOR.get(law.unit, f"coefficient of {law.factor}")
 
@@ -45,15 +47,15 @@ def law_sentence(law: LearnedLaw) -> str:
     if memory := _memory(law):
         size = "of constant size" if law.is_flat else f"whose size {on}"
         texts = [f"The model lacks a {kind} at {law.slot} {memory}, {size}."]
-    elif law.factor and law.is_flat:
+    elif law.factor.form is not Form.ONE and law.is_flat:
         texts = [f"The model lacks a {kind} at {law.slot} of constant size."]
-    elif law.factor:
+    elif law.factor.form is not Form.ONE:
         texts = [f"The {kind} at {law.slot} is not constant: it {on}."]
     else:
         texts = [f"The model lacks {'an' if kind == 'angle' else 'a'} {kind} at {law.slot} that {on}."]
     texts.append(f"It explains {100 * law.share:.1f} % of the misfit.")
     if law.formula:
-        texts.append(f"It looks like {formula_text(law.formula, law.factor, law.unit)}.")
+        texts.append(f"It looks like {formula_text(law.formula, str(law.factor), law.unit)}.")
     before, after = law.held_out
     if before is not None and after is not None:
         texts.append(f"On logs {USES['validate']} the residual goes from {before:.3g} to {after:.3g} with it.")
@@ -64,9 +66,8 @@ def law_sentence(law: LearnedLaw) -> str:
 
 def _memory(law: LearnedLaw) -> str:
     """How a law remembers or hums; "" for other laws."""
-    if bristle := re.fullmatch(r"bristle\(\w+, *([^()]+)\)", law.factor):
+    factor = law.factor
+    if factor.form is Form.BRISTLE:
         unit = {"N": " m", "N.m": " rad"}.get(law.unit, "")
-        return f"that remembers, by a bristle of {float(bristle[1]):.3g}{unit}"
-    if tone := re.match(r"cos\(([^*]+)\*time", law.factor):
-        return f"at {float(tone[1]) / (2 * math.pi):.4g} Hz"
-    return ""
+        return f"that remembers, by a bristle of {factor.number:.3g}{unit}"
+    return f"at {factor.rate / (2 * math.pi):.4g} Hz" if factor.form is Form.TONE else ""

@@ -102,7 +102,7 @@ def _laws(diagnosis: Diagnosis) -> list[str]:
         return []
     rows = []
     for one in diagnosis.laws:
-        formula = formula_text(one.formula, one.factor, one.unit) or "none found"
+        formula = formula_text(one.formula, str(one.factor), one.unit) or "none found"
         rows.append([one.slot, law_kind(one), one.argument, share_text(one.share), formula])
     head = ["place", "what", "depends on", "of the misfit", "formula"]
     classes = [law.modelica for law in diagnosis.laws[:1] if law.modelica]

@@ -97,7 +97,7 @@ def missing(fitted: Fit) -> Law:
 def test_what_is_missing_is_located_with_its_shape(missing: Law) -> None:
     """A force with the sign of the speed: as a curve over the speed, or as its sign times a level that stays."""
     assert missing.slot == "force"
-    assert missing.argument == "force.v" or missing.found.factor == "sign(v)"
+    assert missing.argument == "force.v" or str(missing.found.factor) == "sign(v)"
     assert missing.share > 0.95
     if missing.argument == "force.v":  # beside the line that the damping may as well have taken
         shapes = np.column_stack([np.sign(missing.found.knots), missing.found.knots])

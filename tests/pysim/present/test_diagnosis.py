@@ -30,6 +30,7 @@ from pysim.present.diagnosis.words import (
 )
 from pysim.types import Diagnosis, Effect, ErrorStep, FoundEffect, Left, NextTest, PlannedTest, Rival
 from pysim.types.answer import StandsOut
+from pysim.types.factor import Factor, Form
 from tests.pysim.diagnosis_answer import LAW, OFFSET, estimate, found_offset, found_two, nothing, step
 
 PLANNED = PlannedTest(True, 0.25, 1.5, 3.0, "mm", 16.0)
@@ -113,25 +114,27 @@ def test_an_error_that_rises_does_not_fall() -> None:
 @pytest.mark.parametrize(
     ("factor", "unit", "kind"),
     [
-        ("", "N", "force"),
-        ("", "m3/s", "flow"),
-        ("", "K", "term"),
-        ("v", "N.s/m", "damping"),
-        ("x", "N/m", "stiffness"),
-        ("sign(v)", "N", "friction"),
-        ("bristle(v, 5e-4)", "N", "friction"),
-        ("cos(151.8*time + 0.4)", "N", "force"),
-        ("v*x", "N.s/m2", "coefficient of v*x"),
+        (Factor(), "N", "force"),
+        (Factor(), "m3/s", "flow"),
+        (Factor(), "K", "term"),
+        (Factor(Form.VARIABLE, "v"), "N.s/m", "damping"),
+        (Factor(Form.VARIABLE, "x"), "N/m", "stiffness"),
+        (Factor(Form.SIGN, "v"), "N", "friction"),
+        (Factor(Form.BRISTLE, "v", 5e-4), "N", "friction"),
+        (Factor(Form.TONE, number=0.4, rate=151.8), "N", "force"),
+        (Factor(Form.VARIABLE, "a"), "N.s/m2", "coefficient of a"),
     ],
 )
-def test_a_law_is_called_by_what_its_unit_says(factor: str, unit: str, kind: str) -> None:
+def test_a_law_is_called_by_what_its_unit_says(factor: Factor, unit: str, kind: str) -> None:
     law = replace(LAW, factor=factor, unit=unit, argument="x")
     assert law_kind(law) == kind
     assert kind in law_sentence(law)
 
 
 def test_an_unknown_that_was_learned_is_first_said_in_words() -> None:
-    law = replace(LAW, slot="damper", factor="v", argument="x", unit="N.s/m", held_out=(3.2, 1.6))
+    law = replace(
+        LAW, slot="damper", factor=Factor(Form.VARIABLE, "v"), argument="x", unit="N.s/m", held_out=(3.2, 1.6)
+    )
     found = nothing(complete=False, learned=(law,))
     for said in (verdict_sentence(found), learned_sentence(found)):
         assert said.startswith("The damping at damper is not constant: it depends on x.")
@@ -167,7 +170,7 @@ def test_a_residual_that_an_effect_leaves_as_it_was_stays() -> None:
 
 
 def test_a_law_of_constant_size_is_not_said_to_depend_on_anything() -> None:
-    flat = replace(LAW, factor="sign(v)", coefficients=0 * LAW.coefficients - 60.0)
+    flat = replace(LAW, factor=Factor(Form.SIGN, "v"), coefficients=0 * LAW.coefficients - 60.0)
     assert flat.is_flat
     assert not replace(flat, coefficients=LAW.coefficients, covariance=1e-9 * LAW.covariance).is_flat
     assert "depends" not in law_sentence(flat)

@@ -7,10 +7,11 @@ import pytest
 
 from pysim.present.diagnosis.figures import law_figure
 from pysim.types import BadInput, LearnedLaw
+from pysim.types.factor import Factor, Form
 
 V = np.linspace(-0.3, 0.3, 61)
 FRICTION = LearnedLaw(
-    "pistonForce", "", "pistonForce.v", V, -80 * np.tanh(V / 1e-3), 2.5**2 * np.eye(61), 0.987, "m/s", "N"
+    "pistonForce", Factor(), "pistonForce.v", V, -80 * np.tanh(V / 1e-3), 2.5**2 * np.eye(61), 0.987, "m/s", "N"
 )
 
 
@@ -47,8 +48,8 @@ def below(law: LearnedLaw) -> str:
 
 
 def test_the_formula_stands_below_and_what_refitting_absorbs_is_said() -> None:
-    formula = "-80 N * sign(pistonForce.v)"
-    law = replace(FRICTION, formula="-80", factor="sign(pistonForce.v)")
+    formula = "-80 N * sign(v)"
+    law = replace(FRICTION, formula="-80", factor=Factor(Form.SIGN, "v"))
     assert below(law) == formula
     assert below(replace(law, absorbed=V[:, None])).startswith(f"{formula}\n")
 

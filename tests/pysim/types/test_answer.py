@@ -18,6 +18,7 @@ from pysim.types import (
     NoteCode,
     answer_data,
 )
+from pysim.types.factor import Factor
 from tests.pysim.diagnosis_answer import LAW, estimate, found_offset, nothing
 
 # Fixed by the contract of `--json`; `reason`, and the text of a note, are words and come from `pysim.present`.
@@ -40,7 +41,7 @@ def test_what_cannot_be_is_refused() -> None:
     with pytest.raises(BadInput, match="above 0"):
         NoiseFloor(0.0, FloorSource.SPECIFIED)
     with pytest.raises(BadInput, match="3 knots need 3 coefficients"):
-        LearnedLaw("force", "", "v", np.arange(3.0), np.zeros(2), np.eye(3), 0.9, "m/s", "N")
+        LearnedLaw("force", Factor(), "v", np.arange(3.0), np.zeros(2), np.eye(3), 0.9, "m/s", "N")
 
 
 def test_an_answer_does_not_change() -> None:
@@ -48,7 +49,7 @@ def test_an_answer_does_not_change() -> None:
     note = Note(NoteCode.AT_BOUND, values)
     values["value"] = 2.0
     assert note.values["value"] == 1.0
-    law = LearnedLaw("force", "", "v", np.arange(3.0), np.zeros(3), np.eye(3), 0.9, "m/s", "N")
+    law = LearnedLaw("force", Factor(), "v", np.arange(3.0), np.zeros(3), np.eye(3), 0.9, "m/s", "N")
     with pytest.raises(ValueError, match="read-only"):
         law.knots[0] = 1.0
     assert Left({"a x": NoiseFloor(1.0, FloorSource.REPEATS)}, None, None).floors["a x"].sd == 1.0

@@ -10,12 +10,15 @@ from pysim.effects import STANDARD_LIBRARY, read_catalogue
 from pysim.simulate import simulate
 from pysim.types import BadInput, Effect, Experiment, Signal
 from pysim.types.answer import Diagnosis, FoundEffect, LearnedLaw, Left
+from pysim.types.factor import Factor, Form
 from pysim.workflow.learned import keep_law, with_classes, with_laws
 from pysim.workflow.variants import Variants
 
 PUMP = "HydraulicTestBench.Pump.FreeGreyBox"
 KNOTS = np.linspace(-20e-3, 20e-3, 9)
-LAW = LearnedLaw("pistonForce", "v", "pistonForce.x", KNOTS, 3e5 * KNOTS, 1e4 * np.eye(9), 0.7, "m", "N.s/m")
+LAW = LearnedLaw(
+    "pistonForce", Factor(Form.VARIABLE, "v"), "pistonForce.x", KNOTS, 3e5 * KNOTS, 1e4 * np.eye(9), 0.7, "m", "N.s/m"
+)
 
 
 def answer(law: LearnedLaw, *effects: FoundEffect) -> Diagnosis:

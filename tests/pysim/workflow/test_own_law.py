@@ -50,7 +50,7 @@ def test_what_the_models_own_parameters_may_add_is_not_the_laws(place: LawPlace)
 def test_usual_values_follow_a_curve_that_changes_sign_with_another_variable(place: LawPlace) -> None:
     """Dry friction, learned as the sign of the velocity times a curve over the way: 0.4 N less 0.5 N/m of it."""
     law = learned(lambda x: -(F_C - 0.5 * x))
-    law |= {"depends_on": "force.x", "factor": "sign(v)", "sign_width": V_0 / 10}
+    law |= {"depends_on": "force.x", "factor": "sign(v)", "sign_of": "v", "sign_width": V_0 / 10}
     law["shape"]["argument_unit"] = "m"
     found = typed_law("-(F_c - b*x)*tanh(v/0.002)", place, law)
     assert {name: own[2] for name, own in found.ranges.items()} == pytest.approx({"F_c": F_C, "b": 0.5}, rel=0.01)

@@ -10,16 +10,18 @@ from pysim.diagnosis import Session
 from pysim.diagnosis.learn.curve import curve_basis
 from pysim.types import Estimate
 from pysim.types.answer import Diagnosis, ErrorStep, LearnedLaw, Left
+from pysim.types.factor import Factor, Form
 from validation.blind.plant import BOUNDS
 from validation.learned import answer as judge
 from validation.learned.answer import Answer, answer, band, read_answer
 from validation.learned.case import shares
 from validation.learned.cases import CASES, LearnedCase
 
+V = Factor(Form.VARIABLE, "v")
 NAMED = {case.name: case for case in CASES}
 
 
-def law(case: LearnedCase, factor: str, argument: str, slot: str = "pistonForce", sd: float = 100.0) -> LearnedLaw:
+def law(case: LearnedCase, factor: Factor, argument: str, slot: str = "pistonForce", sd: float = 100.0) -> LearnedLaw:
     """The true curve, each value off by a tenth of its standard deviation."""
     knots = np.linspace(-21e-3, 21e-3, 15)
     assert case.kind.curve is not None
@@ -30,14 +32,14 @@ def law(case: LearnedCase, factor: str, argument: str, slot: str = "pistonForce"
 
 def test_places_and_variables() -> None:
     case = NAMED["damping.position-large-1"]
-    right = law(case, "v", "pistonForce.x")
+    right = law(case, V, "pistonForce.x")
     assert judge._right(case, [right], []) == (True, True)
-    assert judge._right(case, [law(case, "v", "alpha_x")], []) == (True, False)
-    assert judge._right(case, [law(case, "x", "v")], []) == (True, True)
+    assert judge._right(case, [law(case, V, "alpha_x")], []) == (True, False)
+    assert judge._right(case, [law(case, Factor(Form.VARIABLE, "x"), "v")], []) == (True, True)
     assert judge._right(case, [right, replace(right, slot="supply")], []) == (False, True)
     assert judge._right(case, [], []) == (False, False)
     two = NAMED["two-large-2"]
-    opening = replace(right, slot="spoolOpening", factor="", argument="spoolOpening.s")
+    opening = replace(right, slot="spoolOpening", factor=Factor(), argument="spoolOpening.s")
     assert judge._right(two, [opening, right], []) == (True, True)
     assert judge._right(two, [right], []) == (False, False)
     assert judge._right(NAMED["friction.dahl-large-1"], [right], []) == (True, None)
@@ -47,9 +49,9 @@ def test_places_and_variables() -> None:
 
 def test_the_band_is_asked_of_the_right_curve_alone() -> None:
     case = NAMED["damping.position-large-1"]
-    right = law(case, "v", "x", sd=500.0)
+    right = law(case, V, "x", sd=500.0)
     assert band(case, right) == 1.0
-    assert band(case, replace(right, factor="", argument="v")) is None
+    assert band(case, replace(right, factor=Factor(), argument="v")) is None
     assert band(case, replace(right, slot="supply")) is None
     off = replace(right, coefficients=right.coefficients + 3000.0)
     assert band(case, off) == 0.0
@@ -59,7 +61,7 @@ def test_the_band_is_asked_of_the_right_curve_alone() -> None:
 def test_the_band_is_asked_in_the_scale_of_the_models_piston() -> None:
     """A piston of 1.25 times the area moves 1.25 times less far with 1.25 times the force: the same angle."""
     case = NAMED["damping.position-large-1"]
-    right = law(case, "v", "x", sd=60.0)
+    right = law(case, V, "x", sd=60.0)
     area = {"A_p": 1.25 * case.parameters().A_p}
     values, spread = 1.25**2 * right.coefficients, 1.25**4 * right.covariance
     scaled = replace(right, knots=right.knots / 1.25, coefficients=values, covariance=spread, parameters=area)
@@ -103,7 +105,7 @@ def test_a_diagnosis_that_knows_the_law_is_right() -> None:
             Estimate(name, "", value, value, -np.inf, np.inf, 0.0, (value, value)) for name, value in right.items()
         )
         step = ErrorStep("refit", None, None, None, {}, False, 0.0, estimates=estimates)
-        known = replace(law(case, "v", "x", sd=1.0), parameters=right)
+        known = replace(law(case, V, "x", sd=1.0), parameters=right)
         history = (replace(step, step="model"), step, replace(step, step="the law"))
         return Diagnosis((), False, Left({}, None, None), (), (), history, (), learned=(known,))
 

@@ -45,7 +45,7 @@ def law_figure(law: LearnedLaw, samples: NDArray[np.float64] | None = None) -> F
     bottom.set_xlabel(f"{law.argument} ({unit_in})")
     top.set_ylabel(f"Missing {law_kind(law)} at {law.slot} ({unit_out})")
     style.legend_above(figure, [line, band], [f"explains {100 * law.share:.0f} % of the misfit", "95 % band"])
-    notes = [*filter(None, [formula_text(law.formula, law.factor, law.unit)])]
+    notes = [*filter(None, [formula_text(law.formula, str(law.factor), law.unit)])]
     if law.alternatives:
         notes.append(f"these data cannot tell it from a law at {', '.join(law.alternatives)}")
     if law.absorbed.size:

@@ -12,6 +12,7 @@ from pysim.diagnosis.learn.curve import curve_basis
 from pysim.diagnosis.learn.formula import SHAPES, Formula, Shape, formulas
 from pysim.types import EffectParameter
 from pysim.types.answer import LearnedLaw
+from pysim.types.factor import Factor, Form
 
 Array = NDArray[np.float64]
 KNOTS = np.linspace(-20e-3, 20e-3, 9)  # m
@@ -25,7 +26,7 @@ def learned(h: Callable[[Array], Array], sd: float, seed: int = 0, knots: Array 
     basis = curve_basis(z, knots)
     inverse: Array = np.asarray(np.linalg.inv(basis.T @ basis), dtype=np.float64)
     c = inverse @ basis.T @ (h(z) + noise * rng.standard_normal(z.size))
-    return LearnedLaw("pistonForce", "v", "x", knots, c, inverse * noise**2, 0.5, "m", "N.s/m")
+    return LearnedLaw("pistonForce", Factor(Form.VARIABLE, "v"), "x", knots, c, inverse * noise**2, 0.5, "m", "N.s/m")
 
 
 def within(found: Formula, **right: float) -> None:

@@ -21,6 +21,7 @@ from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import BadInput, Experiment, Model, Signal
 from pysim.types.answer import LearnedLaw
+from pysim.types.factor import Factor, Form
 from pysim.workflow import Variants
 from pysim.workflow.learned import keep_law
 from tests.toy import with_term
@@ -70,6 +71,7 @@ end Lab;
 KNOTS = np.sinh(np.linspace(-1.5, 1.5, 7)) / math.sinh(1.5)  # -1 to 1, closer together in the middle
 VALUES = np.array([2.0, -1.0, 3.0, 0.5, -2.0, 1.0, 4.0])
 TIME = np.linspace(0, 3, 301)
+ONE, V = Factor(), Factor(Form.VARIABLE, "v")
 PUSH = np.linspace(0, 3, 11), np.array([0, 20, -20, 15, 0, -20, 20, 5, 25, -20, 0.0])  # s, N
 
 
@@ -80,7 +82,7 @@ def lab(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, ...]:
     return STANDARD_LIBRARY, file
 
 
-def learned(slot: str, factor: str, argument: str, reach: float, unit_in: str, unit: str, size: float) -> LearnedLaw:
+def learned(slot: str, factor: Factor, argument: str, reach: float, unit_in: str, unit: str, size: float) -> LearnedLaw:
     values = size * VALUES
     return LearnedLaw(slot, factor, argument, reach * KNOTS, values, 1e-8 * np.eye(7), 0.5, unit_in, unit)
 
@@ -129,7 +131,7 @@ def test_the_curve_is_constant_beyond_its_ends_and_near_its_values_within() -> N
 
 @pytest.mark.slow
 def test_a_class_runs_as_its_law_in_another_importer(lab: tuple[Path, ...], tmp_path: Path) -> None:
-    law = learned("force", "v", "x", 0.5, "m", "N.s/m", -2.0)
+    law = learned("force", V, "x", 0.5, "m", "N.s/m", -2.0)
     effect = keep_law(law, "my.damping", "Lab.Mass", lab, tmp_path)
     assert (effect.class_name, effect.slot, effect.description) == (
         "MyDamping",
@@ -169,27 +171,27 @@ def test_an_argument_from_elsewhere_is_bound_beside_another_effect(lab: tuple[Pa
       annotation(__HydraulicTestBench(pair="force")); end Both;"""
     (tmp_path / "Both.mo").write_text(pair)
     wider = (*lab, tmp_path / "Rub.mo", tmp_path / "Both.mo")
-    law = replace(learned("force", "sign(v)", "warm", 15.0, "K", "N", 1.0), sign_width=2e-3)
+    law = learned("force", Factor(Form.SIGN, "v", 2e-3), "warm", 15.0, "K", "N", 1.0)
     model = with_law(wider, "Mass", law, effects=read_catalogue(tmp_path / "Rub.mo"))
     right = mass(lambda t, x, v, warm: curve(law, warm) * math.tanh(v / 2e-3) - 4 * v)
     assert run_of(model, **{"force.first.d": 4.0}) == pytest.approx(right, abs=1e-5)
 
 
 def test_time_can_be_the_argument(lab: tuple[Path, ...]) -> None:
-    law = learned("force", "x", "time", 1.5, "s", "N/m", 10.0)
+    law = learned("force", Factor(Form.VARIABLE, "x"), "time", 1.5, "s", "N/m", 10.0)
     law = replace(law, knots=law.knots + 1.5)
     right = mass(lambda t, x, v, warm: curve(law, t) * x)
     assert run_of(with_law(lab, "Mass", law)) == pytest.approx(right, abs=2e-6)
 
 
 def test_a_tone_is_a_factor_of_time(lab: tuple[Path, ...]) -> None:
-    law = learned("force", "cos(7.5*time)", "x", 0.5, "m", "N", 3.0)
+    law = learned("force", Factor(Form.TONE, number=0.0, rate=7.5), "x", 0.5, "m", "N", 3.0)
     right = mass(lambda t, x, v, warm: curve(law, x) * math.cos(7.5 * t))
     assert run_of(with_law(lab, "Mass", law)) == pytest.approx(right, abs=2e-6)
 
 
 def test_a_bristle_remembers(lab: tuple[Path, ...]) -> None:
-    law = learned("force", "bristle(v, 0.02)", "x", 0.5, "m", "N", -1.0)
+    law = learned("force", Factor(Form.BRISTLE, "v", 0.02), "x", 0.5, "m", "N", -1.0)
 
     def rates(t: float, state: Array) -> list[float]:
         x, v, z = state
@@ -209,19 +211,19 @@ def outputs(model: Model, *names: str) -> list[Array]:
 
 
 def test_both_sides_of_a_slot_have_one_law(lab: tuple[Path, ...]) -> None:
-    law = learned("oil", "p1", "oil.p1", 1.0, "Pa", "1/Pa2", 1.0)
+    law = learned("oil", Factor(Form.VARIABLE, "p1"), "oil.p1", 1.0, "Pa", "1/Pa2", 1.0)
     k1, k2 = outputs(with_law(lab, "Signals", law), "k1", "k2")
     a = np.linspace(-1, 1, 301)
     assert k1 == pytest.approx([curve(law, p) * p for p in a], abs=1e-7)  # the class has eight digits
     assert k2 == pytest.approx([curve(law, -2 * p) * -2 * p for p in a], abs=1e-7)  # the class has eight digits
 
 
-@pytest.mark.parametrize("factor", ["", "s"])
-def test_a_signal_is_handed_on_with_its_rate(lab: tuple[Path, ...], factor: str) -> None:
+@pytest.mark.parametrize("factor", [ONE, Factor(Form.VARIABLE, "s")])
+def test_a_signal_is_handed_on_with_its_rate(lab: tuple[Path, ...], factor: Factor) -> None:
     law = learned("link", factor, "s", 1.0, "1", "1", 0.1)
     y, y_t = outputs(with_law(lab, "Signals", law), "y", "y_t")
     s = np.sin(3 * TIME)
-    added = np.array([curve(law, one) * (one if factor else 1.0) for one in s])
+    added = np.array([curve(law, one) * (1.0 if factor == ONE else one) for one in s])
     assert y == pytest.approx(s + added, abs=1e-7)  # the class has eight digits
     assert np.cumsum(y_t[:-1] + np.diff(y_t) / 2) * 0.01 == pytest.approx(y[1:] - y[0], abs=5e-3)
 
@@ -229,7 +231,7 @@ def test_a_signal_is_handed_on_with_its_rate(lab: tuple[Path, ...], factor: str)
 def test_a_formula_is_handed_on_with_its_rate(lab: tuple[Path, ...]) -> None:
     knots, z = np.linspace(-1, 1, 9), np.linspace(-1, 1, 200)
     values = np.linalg.pinv(curve_basis(z, knots)) @ (0.3 * np.tanh(z / 0.4))
-    law = LearnedLaw("link", "", "s", knots, values, 1e-8 * np.eye(9), 0.5, "1", "1")
+    law = LearnedLaw("link", ONE, "s", knots, values, 1e-8 * np.eye(9), 0.5, "1", "1")
     formula = formulas(law)[0]
     assert formula.shapes == ("smooth sign",)
     slot = next(one for one in slots("Lab.Signals", lab) if one.name == "link")
@@ -241,7 +243,7 @@ def test_a_formula_is_handed_on_with_its_rate(lab: tuple[Path, ...]) -> None:
 
 
 def test_a_slot_keeps_the_law_that_it_has(lab: tuple[Path, ...]) -> None:
-    law = learned("spool", "", "u_t", 4.0, "1/s", "1/s2", 20.0)
+    law = learned("spool", ONE, "u_t", 4.0, "1/s", "1/s2", 20.0)
     (u,) = outputs(with_law(lab, "Signals", law), "u")
 
     def rates(t: float, state: Array) -> list[float]:
@@ -253,7 +255,7 @@ def test_a_slot_keeps_the_law_that_it_has(lab: tuple[Path, ...]) -> None:
 
 def test_a_slot_keeps_its_start(lab: tuple[Path, ...]) -> None:
     """The observer of a ramp is settled from the first moment on: nothing but the law is beside the ramp's slope."""
-    law = learned("command", "", "s", 20.0, "%", "%/s", 1.0)
+    law = learned("command", ONE, "s", 20.0, "%", "%/s", 1.0)
     (rate,) = outputs(with_law(lab, "Signals", law), "rate")
     assert rate[0] == pytest.approx(curve(law, 8.0), abs=1e-7)
 
@@ -262,7 +264,7 @@ def test_a_formula_stands_in_place_of_the_table(lab: tuple[Path, ...], tmp_path:
     knots = np.linspace(-0.5, 0.5, 9)
     basis = np.linalg.pinv(curve_basis(np.linspace(-0.5, 0.5, 200), knots))
     values = basis @ (-4 - 60 * np.linspace(-0.5, 0.5, 200) ** 2)
-    law = LearnedLaw("force", "v", "x", knots, values, 1e-4 * np.eye(9), 0.5, "m", "N.s/m")
+    law = LearnedLaw("force", V, "x", knots, values, 1e-4 * np.eye(9), 0.5, "m", "N.s/m")
     formula = formulas(law)[0]
     assert formula.shapes == ("constant", "square")
     effect = keep_law(law, "my.own", "Lab.Mass", lab, tmp_path, formula=formula)
@@ -277,13 +279,14 @@ def test_a_formula_stands_in_place_of_the_table(lab: tuple[Path, ...], tmp_path:
 @pytest.mark.parametrize(
     ("slot", "factor", "unit", "said"),
     [
-        ("force", "v", "N", "times that is not in N"),
-        ("force", "v*(", "N", "the factor"),
-        ("force", "tanh(v)", "N", "divide by a width"),
-        ("link", "v", "1", "does not know"),
+        ("force", V, "N", "times that is not in N"),
+        ("oil", Factor(Form.BRISTLE, "p1", 1.0), "1/Pa", "two sides"),
+        ("link", V, "1", "does not know"),
     ],
 )
-def test_what_cannot_be_written_is_refused(lab: tuple[Path, ...], slot: str, factor: str, unit: str, said: str) -> None:
+def test_what_cannot_be_written_is_refused(
+    lab: tuple[Path, ...], slot: str, factor: Factor, unit: str, said: str
+) -> None:
     known = {one.name: one for name in ("Mass", "Signals") for one in slots(f"Lab.{name}", lab)}
     with pytest.raises(BadInput, match=said):
         law_class(learned(slot, factor, "x", 1.0, "m", unit, 1.0), known[slot], "Own", lab)
@@ -291,11 +294,11 @@ def test_what_cannot_be_written_is_refused(lab: tuple[Path, ...], slot: str, fac
 
 def test_units_that_are_not_si_are_not_looked_at(lab: tuple[Path, ...]) -> None:
     slot = next(one for one in slots("Lab.Mass", lab) if one.name == "force")
-    text = law_class(learned("force", "v", "x", 1.0, "mm", "lbf.s/mm", 1.0), slot, "Own", lab)
+    text = law_class(learned("force", V, "x", 1.0, "mm", "lbf.s/mm", 1.0), slot, "Own", lab)
     assert 'each unit="lbf.s/mm"' in text
 
 
 def test_a_law_of_its_own_kind_has_no_place_for_another(lab: tuple[Path, ...]) -> None:
     flow = next(one for one in slots("HydraulicTestBench.LoadCircuit.OpenTestBench", lab) if one.name == "pumpFlow")
     with pytest.raises(BadInput, match="several kinds"):
-        law_class(learned("pumpFlow", "", "alpha", 1.0, "rad", "m3/s", 1.0), flow, "Own", lab)
+        law_class(learned("pumpFlow", ONE, "alpha", 1.0, "rad", "m3/s", 1.0), flow, "Own", lab)

@@ -22,7 +22,7 @@ def test_laws_at_a_slot_depend_on_what_it_sees_and_on_states_and_inputs_besides(
     assert set(where) == {"guideway", "amplifier"}
     assert where["guideway"].arguments[:2] == ("guideway.x", "guideway.v")
     assert {"i", "x_ref"} <= set(where["guideway"].arguments)
-    names = {(law.factor, law.argument) for law in where["guideway"].laws()}
+    names = {(str(law.factor), law.argument) for law in where["guideway"].laws()}
     assert {("", "guideway.v"), ("v", "guideway.x"), ("sign(v)", "i"), ("x", "x_ref")} <= names
     assert ("v", "guideway.v") not in names
 
