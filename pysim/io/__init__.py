@@ -16,7 +16,7 @@ from pysim.io.headings import column_names
 from pysim.io.load.headings import name_and_unit
 from pysim.io.model_units import in_model_units
 from pysim.io.named_columns import optional_package
-from pysim.io.records import read_record, record_data, record_text, write_record
+from pysim.io.records import is_written_record, read_record, record_data, record_text, write_record
 from pysim.io.signals import read_signal, signal_times, write_signal
 from pysim.io.single_log import read_single_log
 from pysim.io.stages import StageFile, read_stages, write_stages
@@ -47,6 +47,7 @@ __all__ = [
     "draft_text",
     "extracted",
     "in_model_units",
+    "is_written_record",
     "json_number",
     "load_library",
     "log_source",

@@ -64,6 +64,18 @@ def read_record(path: Path | str) -> Record:
         raise BadInput(f"{path} is not a record: {error}; write it with write_record") from error
 
 
+def is_written_record(path: Path) -> bool:
+    """Whether `write_record` wrote the file; a log of others may look like a record, but lacks its first line."""
+    try:
+        read_record(path)
+    except BadInput:
+        return False
+    if path.suffix.lower() != ".csv":
+        return True
+    with path.open(encoding="utf-8-sig") as file:
+        return bool(_PROGRAM.search(file.readline().strip()))
+
+
 def record_text(record: Record) -> str:
     """A record as a .csv holds it."""
     return _as_csv(record).decode()

@@ -85,7 +85,7 @@ def signal_of(value: Input, stop: float, name: str, points: Array | None = None)
         if callable(value):
             return _curve(value, stop) if points is None else _lines(value, points)
         if hasattr(value, "index") and hasattr(value, "to_numpy"):
-            return Signal.lines(np.asarray(value.index, dtype=float), np.asarray(value.to_numpy(), dtype=float))
+            return Signal.lines(_seconds(np.asarray(value.index)), np.asarray(value.to_numpy(), dtype=float))
         rows = np.asarray(value, dtype=float)
         if rows.ndim == 2 and rows.shape[1] == 2:
             return Signal.steps(rows[:, 0], rows[:, 1])
@@ -96,6 +96,13 @@ def signal_of(value: Input, stop: float, name: str, points: Array | None = None)
     raise BadInput(
         f"input {name}: got {type(value).__name__}; give a number, pairs, a row of values, or a function", argument=name
     )
+
+
+def _seconds(index: NDArray[Any]) -> Array:
+    """Times (n,) of a column in s; dates count from the first one."""
+    if index.dtype.kind not in "mM":
+        return np.asarray(index, dtype=float)
+    return np.asarray((index - index[0] if index.dtype.kind == "M" else index) / np.timedelta64(1, "s"))
 
 
 def _curve(function: Callable[[float], float], stop: float) -> Signal:

@@ -15,7 +15,7 @@ from pysim.nouns.table import Shown, Table
 from pysim.nouns.where import Where
 from pysim.present.progress import Progress, showing
 from pysim.types import BadInput, Criterion, Dataset, Note, ProgressEvent, RecordFit
-from pysim.types.kinds import mapping_of
+from pysim.types.kinds import mapping_of, number_of
 
 if TYPE_CHECKING:
     from pysim.workflow import Initial
@@ -38,7 +38,7 @@ def compare(*given: Any, initial: Initial = None, criteria: Criteria = None, pro
     Raises:
         BadInput: no model, what does not fit together, or a model that cannot be simulated along any log.
     """
-    *models, data = given
+    *models, data = given or (None,)
     if not models or not all(isinstance(one, Model) for one in models):
         raise BadInput(
             "compare: give one model or several, as pysim.model makes them, then the measurements", argument="given"
@@ -113,7 +113,7 @@ class Comparison(Shown):
                 raise BadInput(
                     f"criteria: there is no column {name!r}; limits are for {', '.join(known)}", argument="criteria"
                 )
-        return self.criteria
+        return {name: number_of(limit, "criteria") for name, limit in self.criteria.items()}
 
     @property
     def warnings(self) -> tuple[str, ...]:

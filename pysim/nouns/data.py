@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
@@ -34,6 +35,7 @@ from pysim.io.prepare import (
     logs_called,
     prepared,
     refuse_missing_samples,
+    renamed_logs,
     short_name,
 )
 from pysim.io.write_dataset import write_dataset
@@ -41,7 +43,7 @@ from pysim.nouns.data_check import Check, other_quantities
 from pysim.nouns.model import Model
 from pysim.nouns.table import Shown, Table, pandas
 from pysim.types import UNITS, BadInput, Dataset, MeasuredRecord, Record, conversion
-from pysim.types.kinds import mapping_of, names_of, number_of, path_of
+from pysim.types.kinds import mapping_of, names_of, number_of, path_of, whole_number_of
 from pysim.types.record_kind import Command
 
 
@@ -135,27 +137,28 @@ class Data(Shown):
             signals: outputs that are filled as well, for a filter. Others are not compared where a sample is missing.
             shortest: samples; pieces of fewer are left out.
         """
-        return self.after(FillGaps(number_of(longest, "longest"), names_of(signals, "signals"), shortest))
+        least = whole_number_of(shortest, "shortest")
+        return self.after(FillGaps(_finite(longest, "longest"), names_of(signals, "signals"), least))
 
     def drop_outliers(self, sigmas: float = 8.0, *signals: str) -> Data:
         """Take out samples that are so many standard deviations off their neighbours; inputs get straight lines."""
-        return self.after(DropOutliers(number_of(sigmas, "sigmas"), names_of(signals, "signals")))
+        return self.after(DropOutliers(_finite(sigmas, "sigmas"), names_of(signals, "signals")))
 
     def resample(self, hz: float) -> Data:
         """Sample evenly at another rate, with a filter ahead of a lower one."""
-        return self.after(Resample(number_of(hz, "hz")))
+        return self.after(Resample(_finite(hz, "hz")))
 
     def lowpass(self, hz: float, *signals: str) -> Data:
         """Take off what is faster than `hz`, without phase; of all signals where none is named."""
-        return self.after(LowPass(number_of(hz, "hz"), names_of(signals, "signals")))
+        return self.after(LowPass(_finite(hz, "hz"), names_of(signals, "signals")))
 
     def detrend(self, *signals: str, order: int = 0) -> Data:
         """Take the mean (order 0) or the line (1) off signals, log by log; off all where none is named."""
-        return self.after(Detrend(names_of(signals, "signals"), order))
+        return self.after(Detrend(names_of(signals, "signals"), whole_number_of(order, "order")))
 
     def delay(self, signal: str, seconds: float) -> Data:
         """Let a signal come later by so many s; a negative number lets it come earlier, as where its sensor lags."""
-        return self.after(Delay(signal, number_of(seconds, "seconds")))
+        return self.after(Delay(signal, _finite(seconds, "seconds")))
 
     def flip(self, *signals: str, logs: Iterable[str] = ()) -> Data:
         """Turn the sign of signals, in all logs or in those named."""
@@ -181,7 +184,7 @@ class Data(Shown):
             BadInput: no such signal or log, or a unit that is not known.
         """
         of, names = of or self.units.get(signal, ""), names_of(logs, "logs")
-        numbers = number_of(factor, "factor"), number_of(offset, "offset")
+        numbers = _finite(factor, "factor"), _finite(offset, "offset")
         return self.after(Scaled(signal, *numbers, unit or of, of, names))
 
     def rename(self, names: Mapping[str, str] | None = None, **more: str) -> Data:
@@ -281,9 +284,10 @@ class Data(Shown):
         Raises:
             BadInput: the folder holds something, or cannot be written.
         """
-        return write_dataset(
-            path_of(folder, "folder"), as_text(self.raw), units=self.logged, steps=self.history, exact=True
-        )
+        text = as_text(self.raw)
+        called = {old.source: new.source for old, new in zip(self.raw.records, text.records, strict=True)}
+        steps = [renamed_logs(step, called) for step in self.history]
+        return write_dataset(path_of(folder, "folder"), text, units=self.logged, steps=steps, exact=True)
 
     def _unit(self, signal: str) -> str:
         """In which people read a signal."""
@@ -392,7 +396,14 @@ def _record(run: Any) -> Record:
 
 
 def _number(value: float | None, argument: str) -> float | None:
-    return None if value is None else number_of(value, argument)
+    return None if value is None else _finite(value, argument)
+
+
+def _finite(value: float, argument: str) -> float:
+    number = number_of(value, argument)
+    if not math.isfinite(number):
+        raise BadInput(f"{argument}: {number:g} is not finite; give a number", argument=argument)
+    return number
 
 
 def _short(text: str, most: int) -> str:

@@ -111,13 +111,14 @@ def _parts(
     from pysim.workflow import beginning, initial_values, reference_of, session_parts
 
     begun: dict[str, float] = {}
+    is_given = isinstance(initial, Mapping)  # {} is the model's own start
     if isinstance(initial, Mapping):
         begun, initial = initial_values(model.base, initial), "rest"
     parts = session_parts(
         model.base, beginning(dataset, initial), libraries=model.libraries, **model.refitted(),
         values={**model.values, **begun}, effects=effects, reference_hz=reference_of(dataset.responses()),
     )  # fmt: skip
-    return replace(parts, rested=not begun, begins={name: begins[name] for name in parts.free if name in begins})
+    return replace(parts, rested=not is_given, begins={name: begins[name] for name in parts.free if name in begins})
 
 
 def _asked(

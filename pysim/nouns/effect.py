@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from pysim.nouns.model import Model, opened
+from pysim.nouns.model import Model, model_given, opened
 from pysim.nouns.table import Shown, Table
 from pysim.types import BadInput
 from pysim.types import Effect as Described
@@ -38,6 +38,7 @@ def effect(
     Raises:
         BadInput: no such slot, or what a law may not hold, with its place in the text.
     """
+    from pysim.io import write_file
     from pysim.workflow import class_name_of, effect_class
 
     slot, libraries = _slot(at, model)
@@ -45,7 +46,7 @@ def effect(
     file = effect_folder(text) / f"{class_name_of(name)}.mo"
     if not file.exists():
         file.parent.mkdir(parents=True, exist_ok=True)
-        file.write_text(text, encoding="utf-8")
+        write_file(file, text)
     return own_effect(file, slot)
 
 
@@ -159,6 +160,7 @@ class Effect(Shown):
 def _slot(at: str, model: Model | None) -> tuple[Slot, tuple[Path, ...]]:
     """The slot, and the libraries that hold what it takes."""
     if model is not None:
+        model = model_given(model, "effect")
         return model.slot(at), model.libraries
     found = {}
     for one in opened:

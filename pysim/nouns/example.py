@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+import os
+import shutil
 from collections.abc import Mapping
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -93,7 +97,11 @@ def example_folder(name: str) -> Path:
         raise BadInput(f"example: there is no {name!r}; write {' or '.join(EXAMPLES)}", argument="name")
     folder = cache_folder("examples") / f"{name}-{_FORM}"
     if not (folder / "dataset.toml").exists():
-        write_dataset(folder, logs(name))
+        shutil.rmtree(folder, ignore_errors=True)  # of a call that was stopped
+        with TemporaryDirectory(dir=folder.parent) as beside:
+            write_dataset(Path(beside) / name, logs(name))
+            with suppress(OSError):  # another process was faster
+                os.replace(Path(beside) / name, folder)
     return folder
 
 

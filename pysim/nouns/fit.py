@@ -59,6 +59,9 @@ def fit(
 
     model, dataset, outputs = model_given(model, "fit"), dataset_of(data), names_of(outputs, "outputs")
     problem = _problem(model, dataset, initial, outputs)
+    drawn = whole_number_of(seed, "seed")
+    if drawn < 0:
+        raise BadInput(f"fit: the seed {drawn} is negative; give 0 or more", argument="seed")
     log = None if folder is None else path_of(folder, "folder")
     if log is not None and log.is_file():
         raise BadInput(f"fit: {log} is a file; name a folder that keeps the search", argument="folder")
@@ -67,7 +70,7 @@ def fit(
         def heard(tried: Tried) -> None:
             say(ProgressEvent(f"{tried.search}: point {tried.tried}, cost {tried.best:.6g}"))
 
-        effort = Effort(whole_number_of(starts, "starts"), seed, log=log, resume=log is not None)
+        effort = Effort(whole_number_of(starts, "starts"), drawn, log=log, resume=log is not None)
         return Fit(fitted(problem, effort=effort, progress=heard), model, dataset, problem, initial, outputs)
 
 

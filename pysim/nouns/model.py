@@ -264,7 +264,7 @@ class Model(Shown):
                     argument=name,
                 )
         held = self.held | {name for name in values if name not in self.chosen}
-        return replace(self, values={**self.values, **values}, held=held)
+        return replace(self, values={**self.values, **{n: float(v) for n, v in values.items()}}, held=held)
 
     def free(
         self, *names: str, prior: Mapping[str, tuple[float, float]] | None = None, **bounds: tuple[float, float]
@@ -319,13 +319,18 @@ class Model(Shown):
 
     def fix(self, *names: str, **values: float) -> Model:
         """Let a fit leave these parameters where they are, or at these values."""
+        from pysim.workflow import suggested
+
         names = names_of(names, "fix")
         for name in names:
             self._settable(name)
         gone = {*names, *values}
         chosen = tuple(name for name in self.chosen if name not in gone)
         bounds = {name: pair for name, pair in self.bounds.items() if name not in gone}
-        return replace(self, chosen=chosen, bounds=bounds, held=self.held | gone).set(**values)
+        held = self.held | gone
+        if self.chosen and not chosen:  # nothing is left, which is not the same as nothing chosen
+            held |= set(suggested(self.compiled))
+        return replace(self, chosen=chosen, bounds=bounds, held=held).set(**values)
 
     def with_effects(self, *effects: str | OwnEffect) -> Model:
         """Add effects of the catalogue by their names, or effects of your own.
@@ -407,6 +412,9 @@ class Model(Shown):
         model, names = self.compiled, recorded_of(self.compiled, names_of(record, "record"))
         drives: dict[str, Signal] = {}
         if isinstance(what, MeasuredRecord):
+            dt = None if dt is None else number_of(dt, "dt")
+            if not (dt is None or dt > 0):
+                raise BadInput(f"simulate: there are no rows every {dt:g} s; give a time above zero", argument="dt")
             begun = None if inputs else self._begun(what, self.initial if initial is None else initial)
             if begun is not None:
                 assert isinstance(what.data, Record)

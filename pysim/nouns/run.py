@@ -83,16 +83,11 @@ class Run(Shown):
         Raises:
             BadInput: the file is there and holds something else, or cannot be written.
         """
-        from pysim.io import read_record, write_record
+        from pysim.io import is_written_record, write_record
 
         place = path_of(file, "file")
-        if place.exists():
-            try:
-                read_record(place)
-            except BadInput as error:
-                raise BadInput(
-                    f"{place} is there already and holds no run; name another file", argument="file"
-                ) from error
+        if place.exists() and not is_written_record(place):
+            raise BadInput(f"{place} is there already and holds no run; name another file", argument="file")
         write_record(self.record, place)
         return place
 

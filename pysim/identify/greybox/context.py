@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -37,7 +37,8 @@ class Context:
         outputs: columns that are compared.
         noise: standard deviation of each of these columns, in its unit.
         started: records with initial states among the free parameters, None for all records; the model does not settle
-            before these."""
+            before these.
+        at: values of parameters where the search begins; the model settles, and its states range, as with these."""
 
     model: Model
     dataset: Dataset
@@ -46,6 +47,7 @@ class Context:
     noise: Mapping[str, float]
     treatment: Treatment
     started: Collection[str | None]
+    at: Mapping[str, float] = field(default_factory=dict)
 
     def columns(self, record: MeasuredRecord) -> tuple[tuple[str, ...], tuple[str, ...]]:
         """Commands and compared outputs of a log, of which some sample was measured."""
@@ -87,26 +89,36 @@ class Context:
         return max(lasts, default=0.0)
 
     @cached_property
-    def _left_alone(self) -> Sensitivities | None:
+    def _nominal(self) -> Sensitivities | None:
+        """The model left alone with its own parameter values."""
+        return self._left_alone({})
+
+    @cached_property
+    def _begun(self) -> Sensitivities | None:
+        """The model left alone with the parameter values where the search begins."""
+        moved = any(self.model[name].start != value for name, value in self.at.items())
+        return self._left_alone(self.at) if moved else self._nominal
+
+    def _left_alone(self, values: Mapping[str, float]) -> Sensitivities | None:
         """Compared outputs of the model from its start values, inputs constant, and their derivatives by each state."""
         names = tuple(dict.fromkeys(self.variable(column) for column in self.outputs))
         count = len(self.model.abilities.states)
         if not (count and names and self.longest > 0):
             return None
         times = self.longest * np.geomspace(_SETTINGS.earliest, 1.0, _SETTINGS.looks)
-        alone = Experiment(times, names, overrides=self.overrides, offset=np.zeros(count))
+        alone = Experiment(times, names, overrides={**values, **self.overrides}, offset=np.zeros(count))
         return sensitivities_many(
             self.model, [alone], (), offset=True, solver=Esdirk(1e-5, 1e-5, derivative_tol=1e-3), workers=1
         )[0]
 
     @property
     def still(self) -> bool:
-        """Whether the compared outputs stay constant from the model's start values on, with constant inputs.
+        """Whether the compared outputs of the nominal model stay constant from its start values on, inputs constant.
 
         If so, the model settles before each log, as the plant did: a parameter or an effect may move its equilibrium
         away from the start values.
         """
-        found = self._left_alone
+        found = self._nominal
         if found is None or found.record.outcome is not Outcome.DONE:
             return False
         values = found.record.values
@@ -115,7 +127,7 @@ class Context:
     @cached_property
     def _effects(self) -> Array | None:
         """(n_t, n_y, n_x) of a small change of each state, as a share of the largest; None if not simulated."""
-        found = self._left_alone
+        found = self._begun
         if found is None or found.record.outcome is not Outcome.DONE or not np.isfinite(found.by_offset).all():
             return None
         effect = found.by_offset * np.array([abs(self.model[n].nominal or 1.0) for n in self.model.abilities.states])
@@ -126,9 +138,9 @@ class Context:
     def settling(self) -> float:
         """Settling time in s: when a small change of any state has faded from the compared outputs; at most `longest`.
 
-        For the nominal parameters and start values. A change that stays, as of the position behind an integrator, does
-        not count. `longest` if the model cannot be simulated."""
-        found, effect = self._left_alone, self._effects
+        At the parameters' values where the search begins. A change that stays, as of the position behind an integrator,
+        does not count. `longest` if the model cannot be simulated."""
+        found, effect = self._begun, self._effects
         if found is None or effect is None:
             return 0.0 if found is None else self.longest
         times, away = found.record.time, np.abs(effect - effect[-1])

@@ -84,20 +84,18 @@ def noise_floor(
     logs: Sequence[Array],
     given: Mapping[str, float],
     settings: NoiseSettings,
-    integration: float = 0.0,
 ) -> NoiseFloor:
     """Smallest level that a signal's residual is divided by; only a floor, so that a wrong noise does not set weights.
 
     Args:
         logs: columns of the signal, (n_t,) each; not-a-number where nothing was measured.
         given: name of a signal -> noise, which replaces what the data set specifies.
-        integration: relative error of the simulation.
     """
     logs = [log[np.isfinite(log)] for log in logs]
     spread = max((float(np.ptp(log)) for log in logs), default=0.0)
     size = max((float(np.abs(log).max()) for log in logs), default=0.0)
-    step = max((_step(log) for log in logs), default=0.0)
-    least = max(settings.least, integration) * (spread or size or 1.0)
+    step = _step(max(logs, key=len)) if logs else 0.0  # a short log may hold none of the smallest steps
+    least = settings.least * (spread or size or 1.0)
     resolution = max((signal.resolution or 0.0) / math.sqrt(12), step / math.sqrt(12), least)
     specified = given.get(signal.name) or specified_noise(signal) or 0.0
     if specified >= resolution:

@@ -134,6 +134,7 @@ def problem(
     space = parameter_space(model, parameters, fixed=fixed, ties=ties)
     if not data:
         raise BadInput("fit: give at least one data set")
+    begin = space.to_search(space.start)
     observations: list[Observation] = []
     floors: dict[Channel, NoiseFloor] = {}
     notes: list[Note] = []
@@ -143,7 +144,8 @@ def problem(
             if name in (*space.variables, *space.fixed, *(tie.name for tie in space.ties)):
                 raise BadInput(f"fit: data set {one.dataset.name!r} overrides {name}, which is free, tied or fixed")
         one = replace(one, dataset=on_one_clock(one.dataset))
-        context, said = _context(model, one, treatment, _started(model, space))
+        at = {name: value for name, value in space.overrides(begin, "").items() if name not in model.abilities.states}
+        context, said = _context(model, one, treatment, _started(model, space), at)
         with one_blas_thread():
             found, more, stated = _observations(context)
         own = _floors(context, one.noise)
@@ -159,7 +161,7 @@ def problem(
 
 
 def _context(
-    model: Model, data: Measurements, treatment: Treatment, started: Collection[str | None]
+    model: Model, data: Measurements, treatment: Treatment, started: Collection[str | None], at: Mapping[str, float]
 ) -> tuple[Context, list[Note]]:
     """The context of a data set, and notes on noise that was estimated."""
     dataset = data.dataset
@@ -178,7 +180,7 @@ def _context(
             if is_estimated:
                 names = {"dataset": dataset.name, "signal": name, "unit": dataset.signal(name).unit}
                 notes.append(Note(NoteCode.NOISE_ESTIMATED, {"value": sizes[name], **names}))
-    return Context(model, dataset, data.overrides, outputs, sizes, treatment, started), notes
+    return Context(model, dataset, data.overrides, outputs, sizes, treatment, started, at), notes
 
 
 def _columns(dataset: Dataset, name: str) -> list[Array]:

@@ -239,11 +239,14 @@ def _log(context: Context, record: MeasuredRecord, index: int, initial: str) -> 
 
 
 def _state_ranges(context: Context, experiments: Sequence[Experiment]) -> list[Array]:
-    """Range of each state over each log (n_x,), of the nominal model; nominal sizes if it cannot be simulated."""
+    """Range of each state over each log (n_x,) where the search begins; nominal sizes if it cannot be simulated."""
     states = context.model.abilities.states
     if not states or not experiments:
         return [np.zeros(0)] * len(experiments)
-    looks = [replace(one, record=states, times=one.times[:: -(-one.times.size // _WATCHED)]) for one in experiments]
+    looks = [
+        replace(one.override(**context.at), record=states, times=one.times[:: -(-one.times.size // _WATCHED)])
+        for one in experiments
+    ]
     found = []
     for record in simulate_many(context.model, looks, solver=Rodas(1e-3, 1e-3)):
         done = record.outcome is Outcome.DONE and bool(np.isfinite(record.values).all())

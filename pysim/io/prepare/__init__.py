@@ -10,7 +10,7 @@ from pysim.io.prepare.gaps import FillGaps, fill_of, refuse_missing_in, refuse_m
 from pysim.io.prepare.log_names import logs_called, short_name
 from pysim.io.prepare.outliers import DropOutliers, outliers
 from pysim.io.prepare.signals import Delay, Detrend, Flip, Rename, Scaled
-from pysim.io.prepare.step import Step, call, prepared
+from pysim.io.prepare.step import Step, call, prepared, renamed_logs
 from pysim.io.prepare.typed import step_typed, typed
 from pysim.io.prepare.written import STEPS, is_off, step_of, values_of
 
@@ -38,6 +38,7 @@ __all__ = [
     "prepared",
     "refuse_missing_in",
     "refuse_missing_samples",
+    "renamed_logs",
     "short_name",
     "step_of",
     "step_typed",

@@ -100,7 +100,10 @@ class Resample:
             columns = [at_times(time, column, wanted, held=own) for column, own in zip(values.T, held, strict=True)]
             yield replace(record, data=replace(log, time=wanted, values=np.column_stack(columns)))
 
-        return _quieter(each_log(dataset, change), dataset, signals_of(dataset, ()), gain)
+        changed = each_log(dataset, change)
+        rates = [1 / sampling(record.data.time).step for record in dataset.logs() if isinstance(record.data, Record)]
+        is_lower = any(self.hz < (1 - _ROUNDING) * rate for rate in rates)
+        return _quieter(changed, dataset, signals_of(dataset, ()), gain) if is_lower else changed
 
 
 def filtered(values: Array, step: float, gain: Gain) -> Array:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import PurePosixPath
 
 from pysim.types import BadInput, Dataset, MeasuredRecord
@@ -23,21 +24,29 @@ def logs_called(dataset: Dataset, name: str) -> tuple[MeasuredRecord, ...]:
     Raises:
         BadInput: there is none, or several files of different folders have that name.
     """
-    exact = [record for record in dataset.records if record.source == name]
-    found = exact or [record for record in dataset.records if _stem(record.source) == name]
-    if len(found) > 1 and len({record.source for record in found}) > 1:
-        raise BadInput(f"two logs are called {name!r}; name one of {', '.join(r.source for r in found)}")
-    parts = [r for r in dataset.records if _stem(r.source).startswith(f"{_stem(str(name))}{PART}")]
-    if not (found or parts):
-        names = ", ".join(short_name(dataset, record) for record in dataset.records)
-        raise BadInput(f"there is no log {name!r}; name one of {names}")
-    return tuple(found or parts)
+    # The file itself, its name alone, the file that it is a part of, and that one's name.
+    ways: tuple[Callable[[str], str], ...] = (str, _stem, whole_log, lambda source: _stem(whole_log(source)))
+    for way in ways:
+        found = tuple(record for record in dataset.records if way(record.source) == name)
+        files = dict.fromkeys(whole_log(record.source) for record in found)
+        if len(files) > 1:
+            raise BadInput(f"two logs are called {name!r}; name one of {', '.join(files)}")
+        if found:
+            return found
+    names = ", ".join(short_name(dataset, record) for record in dataset.records)
+    raise BadInput(f"there is no log {name!r}; name one of {names}")
 
 
 def part_of(source: str, part: str) -> str:
     """The name of a part of a log: run3.csv, 2 -> run3~2.csv."""
     path = PurePosixPath(source)
     return path.with_name(f"{_stem(source)}{PART}{part}{path.suffix}").as_posix()
+
+
+def whole_log(source: str) -> str:
+    """The log that a part is of: a/run3~2~fit.csv -> a/run3.csv."""
+    path = PurePosixPath(source)
+    return path.with_name(f"{path.stem.partition(PART)[0]}{path.suffix}").as_posix()
 
 
 def _stem(source: str) -> str:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, fields, replace
-from typing import ClassVar, Protocol
+from pathlib import PurePosixPath
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.io.prepare.log_names import logs_called, part_of
+from pysim.io.prepare.log_names import logs_called, part_of, whole_log
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record
 from pysim.types.record_kind import KINDS, Command
 
@@ -143,3 +144,26 @@ def refuse_tables(dataset: Dataset, word: str) -> None:
     """Steps on samples leave tables of responses alone, which would then no longer agree with the logs."""
     if dataset.responses():
         raise BadInput(f"{word} is for logs, and this data set holds tables of responses; correct those by hand")
+
+
+def renamed_logs(step: Step, called: Mapping[str, str]) -> Step:
+    """The step for logs whose files have other names.
+
+    Args:
+        called: file -> its other name; a part of a log takes the suffix of that.
+    """
+    changed: dict[str, Any] = {}
+    for field in ("log", "logs"):
+        given = getattr(step, field, None)
+        if given:
+            names = (given,) if isinstance(given, str) else given
+            new = tuple(_renamed(name, called) for name in names)
+            changed[field] = new[0] if isinstance(given, str) else new
+    return replace(step, **changed) if changed else step  # type: ignore[type-var]
+
+
+def _renamed(name: str, called: Mapping[str, str]) -> str:
+    whole = whole_log(name)
+    if name in called or whole not in called:
+        return called.get(name, name)
+    return PurePosixPath(name).with_suffix(PurePosixPath(called[whole]).suffix).as_posix()

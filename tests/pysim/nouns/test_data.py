@@ -116,6 +116,17 @@ def test_a_saved_folder_reads_as_the_same_data(tmp_path: Path) -> None:
     assert np.isnan(opened.raw.records[1].data.values).sum() == 1
 
 
+def test_steps_of_a_log_find_it_in_the_file_of_text_that_it_becomes(tmp_path: Path) -> None:
+    rows = "\n".join(f"{t:.2f},{np.cos(t):.6f},{np.sin(t):.6f}" for t in TIME)
+    for name in ("run1.dat", "run2.dat"):
+        (tmp_path / name).write_text(f"t [s],F [N],x [m]\n{rows}\n")
+    data = load(str(tmp_path / "*.dat"), inputs="F", outputs="x").split(0.5).hold_out("run2.dat", "run1~fit.dat")
+    data.save(tmp_path / "saved")
+    assert [r.use for r in load(tmp_path / "saved").dataset.records] == [r.use for r in data.dataset.records]
+    with pytest.raises(BadInput, match="not finite"):
+        data.fill_gaps(float("inf"))
+
+
 def test_an_empty_cell_is_saved_and_read(tmp_path: Path) -> None:
     logs().detrend("x").save(tmp_path / "saved")
     again = read_dataset(tmp_path / "saved")

@@ -112,6 +112,22 @@ def test_bounds_that_are_given_are_those_that_a_value_stays_in(mass: Model) -> N
     assert wider.fix("m").values == {"m": 0.1}
 
 
+def test_where_the_last_free_one_is_fixed_nothing_is_free(mass: Model) -> None:
+    assert mass.free("m").fix("m").free_names == ()
+    assert mass.free("m").fix("m").free("k").free_names == ("k",)
+
+
+def test_values_of_numpy_become_plain_numbers(mass: Model) -> None:
+    assert type(mass.set(m=np.float32(2.0)).values["m"]) is float
+
+
+def test_a_column_over_time_stamps_counts_in_seconds(mass: Model) -> None:
+    values = [0.0, 1.0, 0.0]
+    plain = mass.simulate(2.0, F=pandas.Series(values, index=[0.0, 1.0, 2.0])).record["x"]
+    for index in (pandas.to_timedelta([0, 1, 2], "s"), pandas.date_range("2026-01-01", periods=3, freq="s")):
+        assert mass.simulate(2.0, F=pandas.Series(values, index=index)).record["x"] == pytest.approx(plain)
+
+
 def test_nothing_to_free_is_refused(mass: Model) -> None:
     with pytest.raises(BadInput, match=r"model\.free\('m', 'd', 'k'\)"):
         mass.free()
@@ -270,6 +286,16 @@ def test_a_run_prints_draws_and_is_saved(mass: Model, tmp_path: Path) -> None:
         run.save(tmp_path / "bench.csv")
     assert (tmp_path / "bench.csv").read_text() == "t,x\n0,1\n"
     assert math.isclose(run.time[-1], 1.0)
+
+
+def test_a_run_is_not_saved_over_a_measurement(mass: Model, tmp_path: Path) -> None:
+    run, log = mass.simulate(1.0), tmp_path / "run1.csv"
+    log.write_text("time [s],x [mm]\n0,0\n1,2\n")
+    with pytest.raises(BadInput, match="holds no run"):
+        run.save(log)
+    assert log.read_text().startswith("time [s],x [mm]")
+    run.save(tmp_path / "own.csv")
+    run.save(tmp_path / "own.csv")
 
 
 def test_a_function_is_followed_however_long_the_run(mass: Model) -> None:

@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from pysim.identify.greybox import Treatment, problem
+from pysim.identify.greybox import Parameter, Rest, Treatment, problem
 from pysim.identify.greybox.context import Context
 from pysim.types import Model
 from tests.pysim.identify.greybox import measurements as m
@@ -19,6 +19,16 @@ def test_a_lag_comes_to_rest_in_some_time_constants_however_slow_it_is(lag: Mode
     data = m.dataset([m.log(time, np.ones(time.size), np.ones(time.size))])
     context = Context(lag, data, {"T": constant}, ("y",), {"y": 1.0}, Treatment(), (None,))
     assert context.settling == pytest.approx(constant * math.log(100), rel=0.06)
+
+
+def test_a_model_settles_as_slowly_as_its_parameters_say(lag: Model) -> None:
+    """The command is held for a settling time at its first value; the model's own time constant is 0.1 s."""
+    time = np.arange(0, 30, 0.02)
+    for fixed, free in (({"T": 2.0}, ()), ({}, [Parameter("T", 2.0, 0.1, 10.0)])):
+        data = m.dataset([m.log(time, np.ones(time.size), np.ones(time.size))])
+        found = problem(lag, [data], free, fixed=fixed, treatment=Treatment(rest=Rest(), initial="rest"))
+        (run,) = found.residuals().runs
+        assert run.begins - run.experiment.start > 2.0 * math.log(100)
 
 
 def test_the_time_of_a_run_is_the_clock_of_all_records(lag: Model) -> None:

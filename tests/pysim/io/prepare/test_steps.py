@@ -111,6 +111,14 @@ def test_noise_falls_as_a_filter_says() -> None:
     assert np.std(y_of(data)[1]) == pytest.approx(data.signal("y").noise, rel=0.05)
 
 
+def test_noise_stays_where_nothing_is_filtered() -> None:
+    noise = np.random.default_rng(2).normal(scale=0.1, size=20000)
+    data = dataset(np.arange(20000) / 1000, noise)
+    assert [Resample(hz).apply(data).signal("y").noise for hz in (1000.0, 1100.0)] == [0.1, 0.1]
+    slower = Resample(500.0).apply(data)
+    assert np.std(y_of(slower)[1]) == pytest.approx(slower.signal("y").noise, rel=0.05)
+
+
 @pytest.mark.parametrize("order", [0, 1, 2])
 def test_a_polynomial_is_taken_off_whole(order: int) -> None:
     y = sum(3.0 * TIME**k for k in range(order + 1))
@@ -257,6 +265,16 @@ def test_held_out_logs_are_those_of_a_name_and_its_parts() -> None:
     ]
     with pytest.raises(BadInput, match="step 1, hold_out\\(\"walk\"\\): there is no log 'walk'; name one of run"):
         prepared(dataset(TIME, TIME), [HoldOut(("walk",))])
+
+
+def test_parts_of_logs_of_one_name_are_told_apart_by_their_folders() -> None:
+    (record,) = dataset(TIME, TIME).records
+    both = replace(dataset(TIME, TIME), records=tuple(replace(record, source=f"{k}/run.csv") for k in "ab"))
+    cut = Exclude("a/run.csv", 0.5, 1.0).apply(Exclude("b/run.csv", 0.5, 1.0).apply(both))
+    held = HoldOut(("a/run.csv",)).apply(cut)
+    assert {record.source[0]: record.use for record in held.records} == {"a": "test", "b": "fit"}
+    with pytest.raises(BadInput, match="two logs are called 'run'"):
+        HoldOut(("run",)).apply(cut)
 
 
 def test_filters_ask_for_a_log_without_gaps() -> None:
