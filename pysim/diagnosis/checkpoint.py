@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,7 +20,7 @@ from pysim.identify.greybox.residuals import Carried
 from pysim.io import write_file
 from pysim.types import BadInput, FitOutcome
 
-_FORM = 3  # version of the format; raise it when a line changes its meaning
+_FORM = 4  # version of the format; raise it when a line changes its meaning
 
 
 class Checkpoint:
@@ -53,14 +54,14 @@ class Checkpoint:
         part: str,
         find: Callable[[], Sequence[FinalFit]],
         candidates: Sequence[Candidate],
-        simulations: Sequence[Simulation],
+        like: Simulation,
     ) -> list[FinalFit]:
         """The refits of one part: found now and saved, or known, those of the file simulated once at their ends.
 
         Args:
             part: its name, the same whenever this diagnosis runs.
             candidates: all that the part may have refitted.
-            simulations: all solver settings with which its refits may have ended.
+            like: solver settings of its refits, but for their tolerances.
         """
         if part in self._found:
             return self._found[part]
@@ -71,32 +72,35 @@ class Checkpoint:
                     known[tuple(row["labels"]), row["transient"]],
                     np.array(row["x"]),
                     Carried(tuple(None if s is None else np.array(s) for s in row["states"]), np.array(row["sizes"])),
-                    simulations[row["simulation"]],
+                    replace(like, solver=replace(like.solver, **row["solver"]), mismatch=row["mismatch"]),
                     FitOutcome[row["outcome"]] if row["outcome"] else None,
                     row["tried"],
+                    row["memory"],
                 )
                 for row in self._known[part]
             ]
             return self._found[part]
         found = self._found[part] = list(find())
         if self._path is not None:
-            rows = [_row(fit, simulations) for fit in found]
+            rows = [_row(fit) for fit in found]
             with self._path.open("a", encoding="utf-8") as file:
                 file.write(json.dumps({"part": part, "fits": rows}) + "\n")
         return found
 
 
-def _row(fit: FinalFit, simulations: Sequence[Simulation]) -> dict[str, Any]:
-    carried, outcome = fit.point.carried, fit.state.outcome
+def _row(fit: FinalFit) -> dict[str, Any]:
+    carried, outcome, solver = fit.point.carried, fit.state.outcome, fit.simulation.solver
     return {
         "labels": fit.candidate.labels,
         "transient": fit.candidate.transient,
         "x": fit.point.x.tolist(),
         "states": [None if state is None else state.tolist() for state in carried.states],
         "sizes": carried.nuisances.tolist(),
-        "simulation": list(simulations).index(fit.simulation),
+        "solver": {"rtol": solver.rtol, "atol": solver.atol, "max_steps": solver.max_steps},
+        "mismatch": fit.simulation.mismatch,
         "outcome": outcome.name if outcome else None,
         "tried": fit.state.tried,
+        "memory": dict(fit.state.memory),
     }
 
 
@@ -123,4 +127,5 @@ def whose(session: Session, step: str) -> str:
     data = session.dataset
     measured = digest((data.signals, data.records, tuple(sorted(session.data.overrides.items()))))
     catalogue = [(e.name, e.class_name, e.law, repr(e.parameters)) for e in session.catalogue]
-    return repr((step, model, measured, session.parameters, catalogue, session.treatment, session.settings))
+    begins = [(p.name, session.begins.get(p.name, session.model[p.name].start)) for p in session.parameters]
+    return repr((step, model, measured, session.parameters, begins, catalogue, session.treatment, session.settings))

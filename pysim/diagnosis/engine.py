@@ -74,12 +74,11 @@ def learn(
     search = _search(session, progress, checkpoint, "learn")
     base = search.fit_base()
     search.say.stage("refit")
-    if session.build_law is None:
-        search.floors = search.floors.with_(base)
-        search.say.doing("trying laws at inputs and outputs")
-        laws = outside_laws(base, search.floors.sd)
-        return replace(_answer(session, search, Found(base, base, (), search.floors)), missing=laws)
     found, models = _extended(search, base, effects)
+    if session.build_law is None:
+        search.say.doing("trying laws at inputs and outputs")
+        laws = outside_laws(found.final, search.floors.sd)
+        return replace(_answer(session, search, found, models=models), missing=laws)
     return _answer(session, search, found, models=models, learns=Learns.ALWAYS)
 
 

@@ -6,7 +6,7 @@ A point is one evaluation of the objective by the optimiser. Costs are negative 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import compress
 
@@ -160,12 +160,18 @@ def cost_at(candidate: Candidate, values: Values, simulation: Simulation, presen
 
 
 def again(
-    candidate: Candidate, x: Array, carried: Carried, simulation: Simulation, outcome: FitOutcome | None, tried: int
+    candidate: Candidate,
+    x: Array,
+    carried: Carried,
+    simulation: Simulation,
+    outcome: FitOutcome | None,
+    tried: int,
+    memory: Mapping[str, float],
 ) -> FinalFit:
     """A refit read from a checkpoint, simulated once at its end."""
     evaluate = Secants(candidate, simulation, None).evaluate if candidate.has_events else exact(candidate, simulation)
     point = evaluate(x, carried)
-    return FinalFit(candidate, State(point, tried, point.cost, outcome=outcome), simulation, evaluate)
+    return FinalFit(candidate, State(point, tried, point.cost, memory, outcome), simulation, evaluate)
 
 
 def exact(candidate: Candidate, simulation: Simulation) -> Evaluate:

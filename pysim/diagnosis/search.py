@@ -197,15 +197,7 @@ class Search:
 
     def _once(self, part: str, find: Callable[[], FinalFit], candidate: Candidate) -> FinalFit:
         """The refit of a part: from the checkpoint, or found now."""
-        return self._checkpoint.once(part, lambda: [find()], [candidate], self._simulations)[0]
-
-    @property
-    def _simulations(self) -> tuple[Simulation, ...]:
-        """All solver settings with which a refit may have ended."""
-        found = [self.rough, self.fine]
-        for _ in range(self.settings.refinements):
-            found.append(found[-1].finer())
-        return tuple(found)
+        return self._checkpoint.once(part, lambda: [find()], [candidate], self.fine)[0]
 
     @property
     def tables(self) -> tuple[Table, ...]:
@@ -260,10 +252,10 @@ class Search:
         """
         candidate = self.models.of(effects, present.candidate.nuisances)
         found = screened(candidate, effects[-1], self._beside(present, candidate.transient), self.rough)
-        if not found:
-            raise BadInput(f"{effects[-1].name}: the model cannot be simulated with it")
         starts = [begin(candidate, one.values, self.rough, self._beside(present, candidate.transient)) for one in found]
-        best = min((fit for fit in starts if fit.good), key=lambda fit: fit.point.cost)
+        best = min(starts, key=lambda fit: fit.point.cost if fit.good else math.inf, default=None)
+        if best is None or not best.good:
+            raise BadInput(f"{effects[-1].name}: the model cannot be simulated with it")
         fit = self._fine_enough(converged(best, self.fine))
         self.fine = finest(self.fine, fit.simulation)
         return self._keep(fit)
@@ -380,7 +372,7 @@ class Search:
 
         part = f"beside {' + '.join(present.candidate.labels) or 'the base model'}"
         candidates = [one.candidate for one in tried] + [fit.candidate for fit in sensors]
-        fits = self._checkpoint.once(part, raced, candidates, self._simulations)
+        fits = self._checkpoint.once(part, raced, candidates, self.fine)
         have, compared, beyond = set(present.candidate.labels), list[Compared](), list[str]()
         for fit in fits:
             added = next(label for label in fit.candidate.labels if label not in have)

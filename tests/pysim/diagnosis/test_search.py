@@ -12,9 +12,9 @@ from scipy.optimize import least_squares
 
 from pysim.diagnosis import add, diagnose, learn
 from pysim.diagnosis.candidate import Models
-from pysim.diagnosis.checkpoint import Checkpoint
+from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit, begin
+from pysim.diagnosis.refit import FinalFit, advance, begin, converged
 from pysim.diagnosis.search import Compared, Search, Step, Table
 from pysim.diagnosis.session import session
 from pysim.diagnosis.settings import Settings
@@ -266,7 +266,25 @@ def test_choices_that_gain_nothing_together_are_not_exchanged() -> None:
 def test_a_part_of_a_search_is_found_once() -> None:
     known = Checkpoint(None, "")
     fits = [refitted(Models(given("mass", measured("mass", {}))))]
-    assert known.once("base", lambda: fits, [], []) == known.once("base", lambda: [], [], []) == fits
+    assert known.once("base", lambda: fits, [], FINE) == known.once("base", lambda: [], [], FINE) == fits
+
+
+def test_a_refit_goes_on_from_its_file_as_it_would_have(tmp_path: Path) -> None:
+    """However fine its runs are, and ended or not."""
+    models, file = Models(given("mass", measured("mass", {}))), tmp_path / "kept.jsonl"
+    candidate = models.of(())
+    for part, simulation in (("rough", FINE.rough()), ("finer", FINE.finer(0.03))):
+        fit = advance(begin(candidate, {"d": 1.3}, simulation), 1)
+        assert not fit.ended
+        Checkpoint(file, "whose").once(part, lambda fit=fit: [fit], [candidate], FINE)
+        (kept,) = Checkpoint(file, "whose").once(part, lambda: [], [candidate], FINE)
+        assert (kept.simulation, kept.expected) == (simulation, pytest.approx(fit.expected))
+        assert converged(kept).values == converged(fit).values
+
+
+def test_where_the_search_begins_is_part_of_what_a_checkpoint_is_of() -> None:
+    opened = given("mass", measured("mass", {}))
+    assert whose(opened, "diagnose") != whose(replace(opened, begins={"d": 1.3}), "diagnose")
 
 
 def test_steps_are_limited_by_those_of_a_plant_that_moves() -> None:
