@@ -15,7 +15,7 @@ from pysim.nouns.model import Model, model_given
 from pysim.nouns.run import Run
 from pysim.nouns.table import Shown, Table
 from pysim.present.progress import Progress, showing
-from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent
+from pysim.types import BadInput, Dataset, FitOutcome, MeasuredRecord, ProgressEvent, Record
 from pysim.types import Fit as Found
 from pysim.types.kinds import names_of, path_of, whole_number_of
 
@@ -58,7 +58,8 @@ def fit(
     from pysim.workflow import fitted
 
     model, dataset, outputs = model_given(model, "fit"), dataset_of(data), names_of(outputs, "outputs")
-    problem = _problem(model, dataset, initial, outputs)
+    dataset = _only(dataset, outputs) if outputs else dataset
+    problem = _problem(model, dataset, initial)
     drawn = whole_number_of(seed, "seed")
     if drawn < 0:
         raise BadInput(f"fit: the seed {drawn} is negative; give 0 or more", argument="seed")
@@ -74,13 +75,35 @@ def fit(
         return Fit(fitted(problem, effort=effort, progress=heard), model, dataset, problem, initial, outputs)
 
 
-def _problem(model: Model, dataset: Dataset, initial: Initial, outputs: tuple[str, ...]) -> Problem:
+def _only(dataset: Dataset, outputs: tuple[str, ...]) -> Dataset:
+    """The measurements without other outputs than these."""
+    from pysim.identify.greybox.time_log import kept_columns
+
+    measured = [signal.name for signal in dataset.signals if signal.role == "output"]
+    for name in outputs:
+        if name not in measured:
+            raise BadInput(
+                f"fit: data set {dataset.name!r} measures no output {name!r}; it has {', '.join(measured)}",
+                argument="outputs",
+            )
+    signals = tuple(signal for signal in dataset.signals if signal.role == "input" or signal.name in outputs)
+    names, records = {signal.name for signal in signals}, list[MeasuredRecord]()
+    for record in dataset.records:
+        if isinstance(record.data, Record):
+            kept = tuple(name for name in record.data.names if name in names)
+            records.append(replace(record, data=kept_columns(record.data, kept)))
+        elif record.data.test.output in names:
+            records.append(record)
+    return replace(dataset, signals=signals, records=tuple(records))
+
+
+def _problem(model: Model, dataset: Dataset, initial: Initial) -> Problem:
     from pysim.workflow import fit_problem, reference_of
 
     if not model.free_names:
         raise BadInput(f"fit: no parameter of {model.name} is free; name some: model.free('m', d=(20, 60))")
     return fit_problem(
-        model.compiled, [dataset], **model.refitted(), values=model.values, starts=model.usual(), outputs=outputs,
+        model.compiled, [dataset], **model.refitted(), values=model.values, starts=model.usual(),
         reference_hz=reference_of(dataset.responses()), initial=initial,
     )  # fmt: skip
 
@@ -273,7 +296,7 @@ class Fit(Shown):
         grown = plain.with_effects(*asked["effects"]) if asked["effects"] else plain
         begun = replace(grown, **{name: asked[name] for name in _SAID})
         dataset, initial, outputs = dataset_of(place / _DATA), asked["initial"], tuple(asked["outputs"])
-        problem = _problem(begun, dataset, initial, outputs)
+        problem = _problem(begun, dataset, initial)
         found = fit_at(problem, asked["found"], Simulation().as_fine_as(asked["tolerance"]))
         found = replace(found, outcome=FitOutcome(asked["outcome"]), **asked["search"])
         return cls(found, begun, dataset, problem, initial, outputs)

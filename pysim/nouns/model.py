@@ -418,9 +418,10 @@ class Model(Shown):
             begun = None if inputs else self._begun(what, self.initial if initial is None else initial)
             if begun is not None:
                 assert isinstance(what.data, Record)
-                later = float(begun.times[0] - what.data.time[0])  # on the clock of all logs
-                times = np.maximum(_times(what.data, dt) + later, begun.start)
-                found = simulate(model, replace(begun, times=times, record=names), solver=Rodas(), check=check)
+                whole, first = begun
+                later = first - float(what.data.time[0])  # on the clock of all logs
+                times = np.maximum(_times(what.data, dt) + later, whole.start)
+                found = simulate(model, replace(whole, times=times, record=names), solver=Rodas(), check=check)
                 return Run(replace(found, time=found.time - later), self.name)
             times, start, drives = self._log(what, dt)
         else:
@@ -446,8 +447,9 @@ class Model(Shown):
         experiment = Experiment(times, names, drives, values, start, rates=model.rate_inputs(drives))
         return Run(simulate(model, experiment, solver=Rodas(), check=check), self.name)
 
-    def _begun(self, log: MeasuredRecord, initial: Initial) -> Experiment | None:
-        """The run of a log as `compare` has it; None where it measures nothing that the model gives."""
+    def _begun(self, log: MeasuredRecord, initial: Initial) -> tuple[Experiment, float] | None:
+        """The run of a log as `compare` has it, and its time at the log's first sample; None where nothing of the model
+        was measured."""
         from pysim.identify.greybox import Simulation
         from pysim.identify.greybox.comparison import compared
 
@@ -460,7 +462,7 @@ class Model(Shown):
                 if run.record == log.source:
                     found = compared(replace(problem, observations=(one,)), here, Simulation().finer(_FINE))
                     offset = None if run.orbit else found.states.get(id(run))
-                    return run.over_time(problem.space.overrides(here, run.record), offset)
+                    return run.over_time(problem.space.overrides(here, run.record), offset), run.begins
         return None
 
     def _holding(self, log: MeasuredRecord) -> Dataset | None:
@@ -470,8 +472,10 @@ class Model(Shown):
             return None
         for one in self.measured.logs() if self.measured else ():
             assert isinstance(one.data, Record)
-            if one.source == log.source and np.array_equal(one.data.values, data.values, equal_nan=True):
-                return self.measured
+            if one.source == log.source and set(one.data.names) <= set(data.names):
+                values = data.values[:, [data.names.index(name) for name in one.data.names]]
+                if np.array_equal(one.data.values, values, equal_nan=True):
+                    return self.measured
         own = {v.name: v for v in self.compiled.variables}
         columns = [(name, unit) for name, unit in zip(data.names, data.units, strict=True) if name in own]
         roles = {name: "input" if own[name].causality == "input" else "output" for name, _ in columns}

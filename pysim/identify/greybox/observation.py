@@ -35,7 +35,7 @@ class Run:
         orbit: periodic steady state to find, which is then used instead of `experiment`; None for a run over time.
         initial: (n_x,) prior standard deviation of the initial states around rest: infinite if nothing is known of a
             state, 0 if it is held at rest. Empty if all are held.
-        begins: start of the log in s.
+        begins: time in s of the log's first sample; of a steady sine one at its phase, once the model has settled.
         measured: (n_t, n_y) measured rows of a run over time; empty if the comparison is not row by row.
     """
 

@@ -257,6 +257,9 @@ def swing(context: Context, record: MeasuredRecord, index: int) -> Swing:
     settle = float(log.measured.time[0]) - sine.onset
     middle = None if record.begin is None else record.begin + float(np.mean(log.measured.time) - data.time[0])
     run = steady_run(context, record.source, swinging, sine, outputs, others, settle, middle)
+    turned = float(sine.at(data.time[:1])[0]) / (2 * np.pi) % 1.0  # of a period, at the log's first sample
+    turned += np.ceil(context.settling * sine.frequency)
+    run = replace(run, begins=float(run.experiment.times[0]) + turned / sine.frequency)
     return Swing(record, replace(log, middle=middle), run)
 
 

@@ -158,6 +158,25 @@ def test_it_draws_and_is_reported(fitted: Fit, tmp_path: Path) -> None:
     assert "poor" in fitted.summary()
 
 
+def test_an_output_that_is_left_out_is_left_out_of_all_that_follows(mass: Model, data: Dataset, fitted: Fit) -> None:
+    """A sensor of the speed that is dead; without it the fit is what it is without its column."""
+    (signal,) = (one for one in data.signals if one.name == "x")
+    records = tuple(
+        replace(one, data=replace(one.data, names=(*one.data.names, "v"), units=(*one.data.units, "m/s"),
+                                  values=np.column_stack([one.data.values, np.zeros(one.data.time.size)])))
+        for one in data.logs() if isinstance(one.data, Record)
+    )  # fmt: skip
+    dead = replace(signal, name="v", unit="m/s", quantity="v", variable="v", noise=None)
+    both = replace(data, signals=(*data.signals, dead), records=records)
+    found, alone = pysim.fit(mass, both, outputs=["x"]), fitted
+    assert found.values == alone.values
+    assert found.dataset.signals == data.signals
+    log = records[0]
+    assert found.model.simulate(log).record["x"] == pytest.approx(alone.model.simulate(data.records[0]).record["x"])
+    with pytest.raises(BadInput, match="measures no output 'y'"):
+        pysim.fit(mass, both, outputs=["y"])
+
+
 def test_the_lines_of_a_report_make_it_again(mass: Model, data: Dataset, tmp_path: Path) -> None:
     first = pysim.fit(mass, data, initial="rest", outputs="x")
     page = first.report(tmp_path / "first")["report"].read_text(encoding="utf-8")

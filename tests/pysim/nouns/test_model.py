@@ -2,6 +2,7 @@
 
 import math
 import random
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -209,6 +210,17 @@ def test_a_log_of_a_data_set_drives_an_input_between_samples_as_that_says(mass, 
     given = list(zip(t, F, strict=True)) if hold == "zero" else pandas.Series(F, index=t)
     wanted = mass.simulate(4.0, dt=0.05, F=given)
     assert run["x"] == pytest.approx(np.interp(far, wanted.time, wanted["x"]), abs=1e-5)
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.5 * math.pi, 4.0])
+def test_a_steady_sine_is_simulated_at_the_phase_of_its_log(mass: Model, phase: float) -> None:
+    """20 s of a sine at 0.8 Hz, settled: the answer is the frequency response of the equation of motion."""
+    time, w = np.arange(0, 20, 0.01), 2 * math.pi * 0.8
+    response = 1 / (20.0 - w**2 + 0.8j * w)
+    x = np.imag(response * np.exp(1j * (w * time + phase)))
+    log = Record(time, np.column_stack([np.sin(w * time + phase), x]), ("F", "x"), ("N", "m"))
+    record = MeasuredRecord("sine.csv", "frequency-response", "fit", log, offset=0.0, amplitude=1.0, frequency=0.8)
+    assert mass.simulate(replace(record, command="F")).record["x"] == pytest.approx(x, abs=2e-3 * float(np.ptp(x)))
 
 
 def test_a_log_in_another_unit_is_turned_into_that_of_the_input(mass: Model, data: Dataset) -> None:
