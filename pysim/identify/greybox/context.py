@@ -38,7 +38,8 @@ class Context:
         noise: standard deviation of each of these columns, in its unit.
         started: records with initial states among the free parameters, None for all records; the model does not settle
             before these.
-        at: values of parameters where the search begins; the model settles, and its states range, as with these."""
+        at: values of parameters where the search begins, other than the model's own; the model settles, and its states
+            range, as with these."""
 
     model: Model
     dataset: Dataset
@@ -96,8 +97,7 @@ class Context:
     @cached_property
     def _begun(self) -> Sensitivities | None:
         """The model left alone with the parameter values where the search begins."""
-        moved = any(self.model[name].start != value for name, value in self.at.items())
-        return self._left_alone(self.at) if moved else self._nominal
+        return self._left_alone(self.at) if self.at else self._nominal
 
     def _left_alone(self, values: Mapping[str, float]) -> Sensitivities | None:
         """Compared outputs of the model from its start values, inputs constant, and their derivatives by each state."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from types import MappingProxyType
@@ -134,7 +135,7 @@ def problem(
     space = parameter_space(model, parameters, fixed=fixed, ties=ties)
     if not data:
         raise BadInput("fit: give at least one data set")
-    begin = space.to_search(space.start)
+    at = _set_beside(model, space.overrides(space.to_search(space.start), ""))
     observations: list[Observation] = []
     floors: dict[Channel, NoiseFloor] = {}
     notes: list[Note] = []
@@ -144,7 +145,6 @@ def problem(
             if name in (*space.variables, *space.fixed, *(tie.name for tie in space.ties)):
                 raise BadInput(f"fit: data set {one.dataset.name!r} overrides {name}, which is free, tied or fixed")
         one = replace(one, dataset=on_one_clock(one.dataset))
-        at = {name: value for name, value in space.overrides(begin, "").items() if name not in model.abilities.states}
         context, said = _context(model, one, treatment, _started(model, space), at)
         with one_blas_thread():
             found, more, stated = _observations(context)
@@ -158,6 +158,16 @@ def problem(
             'fit: no record is for fitting; give at least one use = "fit" in dataset.toml, in Python hold out fewer'
         )
     return Problem(model, space, tuple(observations), floors, tuple(dict.fromkeys(notes)), treatment.noise, specified)
+
+
+def _set_beside(model: Model, values: Mapping[str, float]) -> dict[str, float]:
+    """Those that are not the model's own, but for states, up to the rounding of a logarithmic scale."""
+    own = {name: model[name].start for name in values if name not in model.abilities.states}
+    return {
+        name: values[name]
+        for name, start in own.items()
+        if start is None or not math.isclose(values[name], start, rel_tol=1e-12)
+    }
 
 
 def _context(
