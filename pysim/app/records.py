@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from pathlib import PurePosixPath
 from typing import Any
 
 import numpy as np
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 
 from pysim.app.answers import STEPS, Answer
 from pysim.io import shown_unit
-from pysim.io.prepare.log_names import PART
+from pysim.io.prepare.log_names import whole_log
 from pysim.present.charts import LOOKS, Chart
 from pysim.present.overlay import Line, compared_lines, drawn, overlay_chart, traces
 from pysim.types import Dataset, MeasuredRecord, Record
@@ -101,9 +100,7 @@ def followed_overlay(found: Mapping[str, Any]) -> Overlay:
 
 def raw_of(raw: Dataset, record: MeasuredRecord) -> Record | None:
     """A log before it was prepared, and before a step cut it into parts."""
-    own = PurePosixPath(record.source)
-    whole = own.with_name(own.stem.partition(PART)[0] + own.suffix).as_posix()
-    found = next((one.data for one in raw.records if one.source in (record.source, whole)), None)
+    found = next((one.data for one in raw.records if one.source in (record.source, whole_log(record.source))), None)
     return found if isinstance(found, Record) else None
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -68,16 +68,7 @@ class Checkpoint:
         if part in self._known:
             known = {(candidate.labels, candidate.transient): candidate for candidate in candidates}
             self._found[part] = [
-                again(
-                    known[tuple(row["labels"]), row["transient"]],
-                    np.array(row["x"]),
-                    Carried(tuple(None if s is None else np.array(s) for s in row["states"]), np.array(row["sizes"])),
-                    replace(like, solver=replace(like.solver, **row["solver"]), mismatch=row["mismatch"]),
-                    FitOutcome[row["outcome"]] if row["outcome"] else None,
-                    row["tried"],
-                    row["memory"],
-                )
-                for row in self._known[part]
+                _fit(known[tuple(row["labels"]), row["transient"]], row, like) for row in self._known[part]
             ]
             return self._found[part]
         found = self._found[part] = list(find())
@@ -102,6 +93,14 @@ def _row(fit: FinalFit) -> dict[str, Any]:
         "tried": fit.state.tried,
         "memory": dict(fit.state.memory),
     }
+
+
+def _fit(candidate: Candidate, row: Mapping[str, Any], like: Simulation) -> FinalFit:
+    states = tuple(None if state is None else np.array(state) for state in row["states"])
+    simulation = replace(like, solver=replace(like.solver, **row["solver"]), mismatch=row["mismatch"])
+    fit = again(candidate, np.array(row["x"]), Carried(states, np.array(row["sizes"])), simulation)
+    outcome = FitOutcome[row["outcome"]] if row["outcome"] else None
+    return replace(fit, state=replace(fit.state, tried=row["tried"], memory=row["memory"], outcome=outcome))
 
 
 def whole_lines(path: Path, what: str) -> list[dict[str, Any]]:

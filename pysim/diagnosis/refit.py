@@ -6,7 +6,7 @@ A point is one evaluation of the objective by the optimiser. Costs are negative 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import compress
 
@@ -159,19 +159,11 @@ def cost_at(candidate: Candidate, values: Values, simulation: Simulation, presen
     return residuals.evaluate(candidate.model, candidate.space, x, carried, jacobian=False, states=False).cost
 
 
-def again(
-    candidate: Candidate,
-    x: Array,
-    carried: Carried,
-    simulation: Simulation,
-    outcome: FitOutcome | None,
-    tried: int,
-    memory: Mapping[str, float],
-) -> FinalFit:
-    """A refit read from a checkpoint, simulated once at its end."""
+def again(candidate: Candidate, x: Array, carried: Carried, simulation: Simulation) -> FinalFit:
+    """A refit read from a checkpoint, simulated once at its end; how far its search was is for the caller to say."""
     evaluate = Secants(candidate, simulation, None).evaluate if candidate.has_events else exact(candidate, simulation)
     point = evaluate(x, carried)
-    return FinalFit(candidate, State(point, tried, point.cost, memory, outcome), simulation, evaluate)
+    return FinalFit(candidate, State(point, first_cost=point.cost), simulation, evaluate)
 
 
 def exact(candidate: Candidate, simulation: Simulation) -> Evaluate:

@@ -1,7 +1,7 @@
 """Every model and block of the library compiled: alone where it can stand alone, inside another where it cannot.
 
 Each state needs a nominal value: an importer multiplies its tolerance by it, and the 1 that stands for a missing one
-may be far off.
+may be far off. An effect is not asked: its signal has the size of the slot that it fills.
 """
 
 from __future__ import annotations
@@ -35,13 +35,14 @@ def run() -> Iterator[Finding]:
     alone, others, refused = _compiled()
     for name, why in refused.items():
         yield Finding(f"{name} does not compile: {why}", 1.0, 0.0, "")
-    inside = used_by(alone) | in_slots(set(others))
+    inside = used_by([*alone]) | in_slots(set(others))
     left = sorted(set(others) - inside)
     claim = f"{len(alone)} models compile alone, {len(others)} inside these or in the slots they are for"
     yield Finding(claim, float(len(left)), 0.0, "in none")
     for name in left:
         yield Finding(f"{name} is in none that compiles: {others[name]}", 1.0, 0.0, "")
-    unscaled = [state for name in alone for state in without_a_scale(read_model(fmu_build.build(name)))]
+    asked = [fmu for name, fmu in alone.items() if ".Effects." not in name]
+    unscaled = [state for fmu in asked for state in without_a_scale(read_model(fmu))]
     yield Finding("states of these without a nominal value", float(len(unscaled)), 0.0, "")
     for state in unscaled:
         yield Finding(f"{state} has no nominal value", 1.0, 0.0, "")
@@ -52,15 +53,14 @@ def without_a_scale(model: Model) -> list[str]:
     return [f"{model.name}.{name}" for name in model.abilities.states if model[name].nominal is None]
 
 
-def _compiled() -> tuple[list[str], dict[str, str], dict[str, str]]:
-    """Names that compile; those that need surroundings and those that fail otherwise, with the reason."""
-    alone: list[str] = []
+def _compiled() -> tuple[dict[str, Path], dict[str, str], dict[str, str]]:
+    """FMUs of those that compile; names of those that need surroundings and that fail otherwise, with the reason."""
+    alone: dict[str, Path] = {}
     others: dict[str, str] = {}
     refused: dict[str, str] = {}
     for name in models():
         try:
-            fmu_build.build(name)
-            alone.append(name)
+            alone[name] = fmu_build.build(name)
         except fmu_build.BuildError as error:
             needy = _NEEDS.search(error.message) or _NEEDS_SIZES.search(error.message)
             (others if needy else refused)[name] = str(error)
