@@ -2,12 +2,10 @@
 
 `diagnose` searches the catalogue of effects, `learn` estimates a law that no catalogue has, `add` adds given effects,
 `rank` tests each effect beside the base model, and `compare` compares the model with the measurements. Each takes a
-`Session`, which `pysim.open_session` makes from names and `session` from objects. `compare_responses` repeats
-stepped-sine tests that were measured as tables of frequency responses.
+`Session`, which `pysim.open_session` makes from names and `session` from objects.
 """
 
 from pysim.diagnosis.engine import add, compare, diagnose, learn, rank
-from pysim.diagnosis.response_comparison import compare_responses
 from pysim.diagnosis.session import BuildVariant, Session, identifiable, session
 from pysim.diagnosis.settings import Settings
 
@@ -17,7 +15,6 @@ __all__ = [
     "Settings",
     "add",
     "compare",
-    "compare_responses",
     "diagnose",
     "identifiable",
     "learn",

@@ -16,14 +16,13 @@ from pysim.diagnosis.learn.fit import LawFit
 from pysim.diagnosis.learn.learn import Learner, Learning
 from pysim.diagnosis.learn.names import without_the_unseated
 from pysim.diagnosis.learn.outside import outside_laws
-from pysim.diagnosis.left import follows
+from pysim.diagnosis.left import follows, tone
 from pysim.diagnosis.next_test import next_test
 from pysim.diagnosis.progress import Progress, Say
 from pysim.diagnosis.refit import FinalFit, begin, converged, finest, integrated
 from pysim.diagnosis.search import Found, Search
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
-from pysim.diagnosis.tone import tone
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput, Effect, NextTest, Note, NoteCode
 from pysim.types.answer import PRIOR, REFIT, Diagnosis, ErrorStep, Left

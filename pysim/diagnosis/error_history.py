@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnosis.failures import failures
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.session import TEST, Session
+from pysim.identify.failures import failures
 from pysim.identify.greybox import Simulation
 from pysim.identify.greybox.comparison import Compared, compared, with_noise
 from pysim.identify.greybox.residuals import Channel

@@ -1,4 +1,4 @@
-"""What a model leaves: the residual's size over the noise floor, and whether the model's own signals predict it.
+"""What a model leaves: whether the model's own signals predict the residual, and whether it holds a tone.
 
 Source: Ljung 1999, Lecture Notes in Control and Information Sciences 245:97 (the model-error model).
 """
@@ -6,18 +6,17 @@ Source: Ljung 1999, Lecture Notes in Control and Information Sciences 245:97 (th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnosis.refit import FinalFit, begin
-from pysim.diagnosis.rivals import of
-from pysim.identify.greybox.noise import white_floor
+from pysim.diagnosis.floors import logs
+from pysim.diagnosis.refit import FinalFit
 from pysim.identify.greybox.residuals import Channel
+from pysim.identify.spectral_line import periodogram, spectral_line
 from pysim.types import Dataset, Record
-from pysim.types.answer import FloorSource, NoiseFloor
 
 Array = NDArray[np.float64]
 
@@ -41,108 +40,6 @@ class Follows:
     t: float
 
 
-@dataclass(frozen=True)
-class Floors:
-    """The noise floor of each channel (data set and signal), as far as the models so far show it.
-
-    Args:
-        floors: channel -> the least white-noise level in any model's residual; the specified noise if that is larger.
-    """
-
-    floors: Mapping[Channel, NoiseFloor] = field(default_factory=dict)
-
-    def with_(self, fit: FinalFit) -> Floors:
-        """The floors with another model's residual: the lower one for each channel."""
-        found = dict(self.floors)
-        for channel, floor in white_floors(fit).items():
-            if channel not in found or floor.sd < found[channel].sd:
-                found[channel] = floor
-        return Floors(found)
-
-    @property
-    def sd(self) -> dict[Channel, float]:
-        """Standard deviation of the noise of each channel."""
-        return {channel: floor.sd for channel, floor in self.floors.items()}
-
-    def over(self, fit: FinalFit) -> dict[Channel, float]:
-        """Root mean square residual over the floor, per channel."""
-        residuals = fit.candidate.residuals(fit.simulation)
-        sizes = np.sqrt(fit.point.squares / np.maximum(residuals.samples, 1.0))
-        return {c: float(size) / self.floors[c].sd for c, size in zip(residuals.channels, sizes, strict=True)}
-
-    def whole(self, fit: FinalFit) -> float:
-        """Root mean square residual over the floors, of all fitted channels together."""
-        residuals = fit.candidate.residuals(fit.simulation)
-        counts = dict(zip(residuals.channels, residuals.samples.tolist(), strict=True))
-        total = sum(counts[channel] * ratio**2 for channel, ratio in self.over(fit).items())
-        return math.sqrt(total / max(sum(counts.values()), 1.0))
-
-    def rows(self, fit: FinalFit) -> Array:
-        """(n_r,) noise floor of each measured row."""
-        series = fit.candidate.residuals(fit.simulation).series
-        sizes = [1.0 if name is None else self.floors[one.dataset, name].sd for one, name in series]
-        return np.array(sizes)[of(fit).series]
-
-    def between(self, fit: FinalFit, other: FinalFit) -> float:
-        """Root mean square difference over the floors of the residuals of two simulations of one model."""
-        return float(np.sqrt(np.mean(((of(fit).residual - of(other).residual) / self.rows(fit)) ** 2)))
-
-    def roughest(self, fit: FinalFit, error: float) -> FinalFit:
-        """The fit simulated with the largest tolerance that changes its residual by less than `error` floors.
-        With a larger one, the cost would jump between iterations by more than an effect or a law gains."""
-        simulation = fit.simulation.rough()
-        while simulation.solver.rtol > fit.simulation.solver.rtol:
-            rough = begin(fit.candidate, fit.values, simulation, fit)
-            if rough.good and self.between(fit, rough) < error:
-                return rough
-            simulation = simulation.finer()
-        return fit
-
-    def within(self, fit: FinalFit, factor: float) -> bool:
-        """Whether the root mean square residual of every channel is below `factor` times its floor."""
-        return all(ratio < factor for ratio in self.over(fit).values())
-
-    def avoidable(self, fit: FinalFit) -> float:
-        """Avoidable sum of squares: what the residuals have beyond the noise floors, over the floors' variances."""
-        samples = fit.candidate.residuals(fit.simulation).samples
-        squares = np.square(list(self.over(fit).values()))
-        return float(np.sum(samples * np.maximum(squares - 1.0, 0.0)))
-
-    def potential(self, fit: FinalFit) -> float:
-        """Nats (log-likelihood) by which a model that left only the noise floors would be better."""
-        residuals = fit.candidate.residuals(fit.simulation)
-        counts = dict(zip(residuals.channels, residuals.samples.tolist(), strict=True))
-        return sum(counts[c] * math.log(max(ratio, 1.0)) for c, ratio in self.over(fit).items())
-
-
-def white_floors(fit: FinalFit) -> dict[Channel, NoiseFloor]:
-    """White-noise level of a model's residual in each channel, never below the channel's specified or least level."""
-    residuals = fit.candidate.residuals(fit.simulation)
-    problem, found = fit.candidate.problem, dict[Channel, NoiseFloor]()
-    parts = _columns(fit)
-    rests: dict[Channel, tuple[float, float]] = {}
-    for one in residuals.observations:
-        if one.domain == "time":
-            continue
-        rows = np.bincount(one.channel_of_row, minlength=len(one.channels)) if one.channels else ()
-        for name, rest, samples, count in zip(one.channels, one.rest, one.samples, rows, strict=True):
-            square, number = rests.get((one.dataset, name), (0.0, 0.0))
-            rests[one.dataset, name] = square + float(rest), number + float(samples) - float(count)
-    for channel, least in problem.floors.items():
-        own = parts.get(channel, [])
-        white = white_floor(own, problem.settings)
-        if white is None:  # no stretch without a missing sample is long enough
-            white = white_floor([rest[np.isfinite(rest)] for rest in own], problem.settings)
-        seen = [] if white is None else [white]
-        if channel in rests and rests[channel][1] > 0:
-            seen.append(math.sqrt(rests[channel][0] / rests[channel][1]))
-        if seen and min(seen) > least.sd:
-            found[channel] = NoiseFloor(min(seen), FloorSource.SPECTRUM)
-        else:
-            found[channel] = least
-    return found
-
-
 def follows(fit: FinalFit, dataset: Dataset, blocks: int) -> Follows | None:
     """Regress the residuals of logs over time on the model's own inputs and outputs (model-error model).
 
@@ -158,32 +55,6 @@ def follows(fit: FinalFit, dataset: Dataset, blocks: int) -> Follows | None:
     names = {channel for _, rests in tables for channel in rests}
     found = [one for name in sorted(names) if (one := _regression(tables, name, blocks)) is not None]
     return max(found, key=lambda one: one.t, default=None)
-
-
-def _columns(fit: FinalFit) -> dict[Channel, list[Array]]:
-    """Residuals of the logs over time, (n_t,) each, in the channels' units; not-a-number where nothing was measured."""
-    found: dict[Channel, list[Array]] = {}
-    for _, rests in logs(fit):
-        for channel, rest in rests.items():
-            found.setdefault(channel, []).append(rest)
-    return found
-
-
-def logs(fit: FinalFit) -> Iterator[tuple[str, dict[Channel, Array]]]:
-    """Source of each log over time that was fitted, and its residuals by channel; of a long log, rows of triangles.
-
-    A residual is not-a-number where nothing was measured.
-    """
-    left, found = of(fit), dict[str, dict[Channel, Array]]()
-    for number, (one, name) in enumerate(fit.candidate.residuals(fit.simulation).series):
-        if one.domain == "time" and name is not None:
-            rows = left.residual[left.series == number]
-            there = np.isfinite(one.runs[0].measured[:, one.channels.index(name)])
-            if not there.all() and rows.size == np.count_nonzero(there):
-                rows, own = np.full(there.size, np.nan), rows
-                rows[there] = own
-            found.setdefault(one.sources[0], {})[one.dataset, name] = rows
-    yield from found.items()
 
 
 def _regressors(fit: FinalFit, dataset: Dataset) -> Iterator[tuple[Array, dict[Channel, Array]]]:
@@ -255,3 +126,48 @@ def _regression(tables: list[tuple[Array, dict[Channel, Array]]], channel: Chann
         if share > best.share:
             best = Follows(share, float(gains.sum()) / spread if spread > 0 else 0.0)
     return best
+
+
+def tone(fit: FinalFit, dataset: Dataset, false_alarm: float) -> float | None:
+    """Frequency in Hz of the most significant tone in a model's residuals of logs over time; None without a tone.
+
+    Args:
+        dataset: the fitted data set.
+        false_alarm: chance of finding a tone in noise.
+    """
+    times = {record.source: record.data.time for record in dataset.records if isinstance(record.data, Record)}
+    lines = [spectral_line(times[source], rest) for source, rests in logs(fit) for rest in rests.values()]
+    found = [line for line in lines if line is not None]
+    if not found:
+        return None
+    chance, frequency = min(found)
+    return frequency if chance * len(found) < false_alarm else None
+
+
+def tone_rate(fit: FinalFit, dataset: Dataset, false_alarm: float) -> float | None:
+    """Angular frequency in rad/s of the tone on the clock of all logs, as exactly as all of them together show it.
+
+    It is the highest point of the residuals' periodogram over all logs, near the frequency that one log shows.
+    """
+    about = tone(fit, dataset, false_alarm)
+    if about is None:
+        return None
+    clock = {
+        record.source: (record.begin or 0.0) + record.data.time - record.data.time[0]
+        for record in dataset.records
+        if isinstance(record.data, Record)
+    }
+    pairs: dict[Channel, list[tuple[Array, Array]]] = {}
+    for source, own in logs(fit):
+        for channel, rest in own.items():
+            if rest.size == clock[source].size:
+                pairs.setdefault(channel, []).append((clock[source], np.nan_to_num(rest - np.nanmean(rest))))
+    whole = np.concatenate([t for own in pairs.values() for t, _ in own])
+    lengths = [float(np.ptp(t)) for own in pairs.values() for t, _ in own]
+    rates = [2 * np.pi * np.arange(about - 1 / min(lengths), about + 1 / min(lengths), 1 / (8 * one))
+             for one in (max(lengths), float(np.ptp(whole)))]  # fmt: skip
+    power = np.sum([periodogram(own, *rates) for own in pairs.values()], axis=0)
+    best = int(np.clip(np.argmax(power), 1, power.size - 2))
+    low, middle, high = power[best - 1 : best + 2]
+    bend = low - 2 * middle + high
+    return float(rates[1][best] + (0.5 * (low - high) / bend if bend < 0 else 0.0) * (rates[1][1] - rates[1][0]))

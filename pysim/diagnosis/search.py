@@ -17,7 +17,7 @@ import numpy as np
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate, Models, Values
 from pysim.diagnosis.checkpoint import Checkpoint
-from pysim.diagnosis.left import Floors
+from pysim.diagnosis.floors import Floors
 from pysim.diagnosis.progress import Progress
 from pysim.diagnosis.refit import FinalFit, Pairs, advance, begin, begin_anywhere, brought_near, converged, finest, race
 from pysim.diagnosis.screen import Screened, best_of_each, screen, screened

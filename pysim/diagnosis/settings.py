@@ -195,24 +195,3 @@ class TestSettings:
         0.1, unit="1", meaning="noise over range, above which a signal is not worth logging", source="nothing is read"
     )
     seed: int = setting(1, unit="1", meaning="random seed of waves", source="convention")
-
-
-@dataclass(frozen=True)
-class ToneSettings:
-    """When one line of a residual's spectrum counts as a tone."""
-
-    lobe: int = setting(
-        2, unit="1", meaning="lines on either side that belong to a tone", source="main lobe of Hann's window"
-    )
-    beside: int = setting(
-        8, unit="1", meaning="further lines, on either side, that give the noise level", source="noise is level there"
-    )
-    worth: int = setting(
-        8, unit="1", meaning="independent lines that these are worth", source="half, as Hann's window joins two"
-    )
-    even: float = setting(
-        0.01,
-        unit="1",
-        meaning="share of the mean by which sampling intervals may differ",
-        source="half a percent of the shortest period",
-    )

@@ -1,7 +1,8 @@
-"""The units that the parameters of a law must have, so that it gives what its slot takes."""
+"""Units of a law: those that its parameters must have, so that it gives what its slot takes, and quotients of two."""
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from fractions import Fraction
@@ -70,3 +71,19 @@ def _with(powers: Dimension, known: Mapping[str, Dimension]) -> Dimension:
     return {
         one: rounded for one, power in found.items() if (rounded := float(Fraction(power).limit_denominator(_PARTS)))
     }
+
+
+def quotient(unit: str, by: str, power: int = 1) -> str:
+    """Quotient of a unit and a power of another as Modelica writes it: "N" by "m/s" is "N.s/m"."""
+    powers: dict[str, int] = {}
+    for text, sign in ((unit, 1), (by, -power)):
+        above, _, below = text.partition("/")
+        for part, side in ((above, sign), (below.strip("()"), -sign)):
+            for symbol, exponent in re.findall(r"([A-Za-z%]+)(-?\d*)", part):
+                powers[symbol] = powers.get(symbol, 0) + side * int(exponent or 1)
+    over, under = (
+        [symbol + (f"{side * n}" if side * n > 1 else "") for symbol, n in powers.items() if side * n > 0]
+        for side in (1, -1)
+    )
+    divided = f"({'.'.join(under)})" if len(under) > 1 else "".join(under)
+    return ".".join(over or ["1"]) + (f"/{divided}" if under else "")

@@ -1,4 +1,4 @@
-"""From time to frequency: stepped-sine tests, sine fits, frequency responses, and deviations between two of them."""
+"""From time to frequency: stepped-sine tests, sine fits, frequency responses, and a model's beside those measured."""
 
 from pysim.identify.accuracy import (
     FREQUENCY_CRITERIA,
@@ -17,6 +17,7 @@ from pysim.identify.frequency_response import (
 )
 from pysim.identify.frf import MeasuredResponse, SinePoint, Window, measured_responses, sine_point
 from pysim.identify.logged import LoggedWave, logged_command, logged_wave
+from pysim.identify.response_comparison import compare_responses
 from pysim.identify.settling import SteadyRun, run_until_settled
 from pysim.identify.sine_fit import SineFit, sine_fit
 from pysim.identify.stepped_sine import SteppedSine, command, stepped_sine
@@ -37,6 +38,7 @@ __all__ = [
     "TransferFunction",
     "Window",
     "command",
+    "compare_responses",
     "frequency_deviations",
     "frequency_response",
     "logged_command",

@@ -124,7 +124,7 @@ class Comparison(Shown):
 
     def where(self) -> Where:
         """Where the last of the models fails, the worst region first."""
-        from pysim.diagnosis.failures import failures
+        from pysim.identify.failures import failures
 
         return Where(failures(list(self.records.values())[-1], self.dataset))
 

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from pysim.nouns.effect import Effect, effect_folder, own_effect
 from pysim.nouns.model import Model
@@ -12,6 +13,9 @@ from pysim.nouns.table import Shown, Table
 from pysim.types import BadInput, LearnedLaw, law_data
 from pysim.types import Diagnosis as Answer
 from pysim.types import Effect as Missing
+
+if TYPE_CHECKING:
+    from pysim.effects.learned import Formula
 
 
 def laws_of(found: Answer, model: Model) -> tuple[Law, ...]:
@@ -55,10 +59,13 @@ class Law(Shown):
         """A short expression for the curve; "" where none fits."""
         if self.found.formula:
             return self.found.formula
-        from pysim.diagnosis.learn.formula import formulas
+        return self._formula.text(self.argument.removeprefix(f"{self.slot}.")) if self._formula else ""
 
-        best = next(iter(formulas(self.found)), None)
-        return best.text(self.argument.removeprefix(f"{self.slot}.")) if best else ""
+    @cached_property
+    def _formula(self) -> Formula | None:
+        from pysim.effects.learned import formulas
+
+        return next(iter(formulas(self.found)), None)
 
     @property
     def table(self) -> Table:
@@ -84,13 +91,16 @@ class Law(Shown):
             return as_plotly(law_chart(law_data(self.found)))
         return law_figure(self.found, self.samples)
 
-    def to_effect(self, name: str, *, description: str = "", inner: Missing | None = None) -> Effect:
+    def to_effect(
+        self, name: str, *, description: str = "", formula: bool = False, inner: Missing | None = None
+    ) -> Effect:
         """An effect whose law this curve is, to add to a model; `save(folder)` writes its class into a library.
 
         Args:
+            formula: write the formula, its amounts and widths as parameters, in place of the curve.
             inner: effect of the same slot that becomes part of it, since a slot takes one.
         Raises:
-            BadInput: no class can be written for the slot, or the name makes no name of a class.
+            BadInput: no class can be written for the slot, the name makes no name of a class, or no formula fits.
         """
         from pysim.workflow import class_name_of, keep_law
 
@@ -98,12 +108,22 @@ class Law(Shown):
             raise BadInput(f"nothing can be added to {self.model.name}: its class is in no library")
         variants = self.model.variants
         within = "" if inner is None else f"|{inner.class_name}|{inner.law}"
-        curve = self.found.coefficients.tobytes().hex()
+        best = self._formula if formula else None
+        if formula and best is None:
+            raise BadInput(f"no formula fits the curve at {self.slot}; leave out formula=True", argument="formula")
+        curve = self.found.coefficients.tobytes().hex() if best is None else best.text("z")
         folder = effect_folder(f"{name}|{description}|{self.found.slot}|{curve}{within}")
         file = folder / f"{class_name_of(name)}.mo"
         if not file.exists():
             keep_law(
-                self.found, name, variants.class_name, variants.libraries, folder, description=description, inner=inner
+                self.found,
+                name,
+                variants.class_name,
+                variants.libraries,
+                folder,
+                description=description,
+                formula=best,
+                inner=inner,
             )
         return own_effect(file)
 

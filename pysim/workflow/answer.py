@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from pysim.diagnosis.response_comparison import versions
+from pysim.identify.response_comparison import versions
 from pysim.types import Diagnosis
 from pysim.workflow.learned import with_classes
 from pysim.workflow.session import SessionParts

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from pysim.diagnosis import Settings
-from pysim.diagnosis.adequacy import shortcomings
+from pysim.identify.adequacy import shortcomings
 from pysim.identify.greybox import (
     NOISE,
     Effort,

@@ -13,8 +13,8 @@ from pysim.io import write_file
 from pysim.types import BadInput, Effect
 
 if TYPE_CHECKING:
-    from pysim.diagnosis.learn.formula import Formula
     from pysim.effects import Slot
+    from pysim.effects.learned import Formula
     from pysim.types.answer import Diagnosis, LearnedLaw
     from pysim.workflow.variants import Variants
 
@@ -28,15 +28,14 @@ def with_classes(found: Diagnosis, model: str, libraries: Sequence[Path]) -> Dia
         model: full name of the class in whose slots they stand.
         libraries: where that is.
     """
-    from pysim.diagnosis.learn.formula import formulas
-    from pysim.diagnosis.learn.law_class import law_class
+    from pysim.effects.learned import formulas, learned_class
 
     laws = []
     for law in found.learned:
         argument, name = law.argument.removeprefix(f"{law.slot}."), _effect_name(law)
         best = next(iter(formulas(law)), None)
         try:
-            text = law_class(law, _slot(law, model, libraries), class_name_of(name), libraries, effect=name)
+            text = learned_class(law, _slot(law, model, libraries), class_name_of(name), libraries, effect=name)
         except BadInput:
             text = ""
         laws.append(replace(law, modelica=text, formula=best.text(argument) if best else ""))
@@ -79,10 +78,10 @@ def keep_law(
 
 def _written(law: LearnedLaw, name: str, model: str, libraries: Sequence[Path], file: Path, **more: Any) -> Effect:
     """The effect of a law's class, once that is in the file."""
-    from pysim.diagnosis.learn.law_class import law_class
     from pysim.effects import read_catalogue
+    from pysim.effects.learned import learned_class
 
-    text = law_class(law, _slot(law, model, libraries), file.stem, libraries, effect=name, **more)
+    text = learned_class(law, _slot(law, model, libraries), file.stem, libraries, effect=name, **more)
     file.parent.mkdir(parents=True, exist_ok=True)
     write_file(file, text)
     return next(one for one in read_catalogue(*libraries, file) if one.class_name == file.stem)

@@ -6,7 +6,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from pysim.diagnosis import compare_responses
+from pysim.identify import compare_responses
 from pysim.io import read_dataset
 from pysim.thesis import Difference, differences, pump_model, read_csv, write_dataset
 from pysim.thesis.explanation import TOLERANCE_DB, TOLERANCE_DEG

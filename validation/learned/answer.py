@@ -15,7 +15,7 @@ import numpy as np
 from fmpy import simulate_fmu
 
 from pysim.diagnosis import Session, diagnose
-from pysim.diagnosis.learn.curve import curve_basis
+from pysim.effects.learned import curve_basis
 from pysim.types import Dataset, Effect
 from pysim.types.answer import Diagnosis, LearnedLaw
 from pysim.types.factor import Form

@@ -11,8 +11,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 import fmu_build
-from pysim.diagnosis import compare_responses
-from pysim.identify import magnitude_db
+from pysim.identify import compare_responses, magnitude_db
 from pysim.io import read_model
 from pysim.present.style import COLOURS, DASHES, MARKERS, SMALL, TEXT, new_figure, quiet
 from pysim.simulate import Rodas, simulate

@@ -53,7 +53,7 @@ def _logs(given: Given) -> Diagnosed:
 
 def _responses(given: Given, dataset: Dataset) -> Comparison:
     from pysim.cli.options import read_parameters
-    from pysim.diagnosis import compare_responses
+    from pysim.identify import compare_responses
     from pysim.io import in_model_units
     from pysim.present.progress import announce_compilation
     from pysim.workflow import reference_of

@@ -86,7 +86,7 @@ def _build(label: str, folder: Path) -> Model:
 
 def _compare(label: str, model: Model, dataset: Dataset) -> Comparison:
     """Run all tests through one model."""
-    from pysim.diagnosis import compare_responses
+    from pysim.identify import compare_responses
     from pysim.present.progress import ProgressBar
     from pysim.thesis import SOURCES
 

@@ -23,8 +23,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnosis.learn.curve import widths
 from pysim.effects import Slot
+from pysim.effects.learned import widths
 from pysim.types import Model
 from pysim.types.factor import Factor, Form
 
@@ -362,19 +362,3 @@ def samples(law: Law, seen: Mapping[str, Array]) -> tuple[Array, Array]:
         value = seen[factor] if factor and not law.free else np.ones(z[-1].size)
         by.append(np.tanh(value / law.number) if law.form is Form.SIGN else value)
     return np.concatenate(z), np.concatenate(by)
-
-
-def quotient(unit: str, by: str, power: int = 1) -> str:
-    """Quotient of a unit and a power of another as Modelica writes it: "N" by "m/s" is "N.s/m"."""
-    powers: dict[str, int] = {}
-    for text, sign in ((unit, 1), (by, -power)):
-        above, _, below = text.partition("/")
-        for part, side in ((above, sign), (below.strip("()"), -sign)):
-            for symbol, exponent in re.findall(r"([A-Za-z%]+)(-?\d*)", part):
-                powers[symbol] = powers.get(symbol, 0) + side * int(exponent or 1)
-    over, under = (
-        [symbol + (f"{side * n}" if side * n > 1 else "") for symbol, n in powers.items() if side * n > 0]
-        for side in (1, -1)
-    )
-    divided = f"({'.'.join(under)})" if len(under) > 1 else "".join(under)
-    return ".".join(over or ["1"]) + (f"/{divided}" if under else "")

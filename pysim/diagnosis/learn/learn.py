@@ -9,16 +9,16 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from pysim.diagnosis import rivals
+from pysim.diagnosis.floors import Floors
 from pysim.diagnosis.learn.basis import Array, closer
-from pysim.diagnosis.learn.curve import curve_basis
 from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, settled, started
 from pysim.diagnosis.learn.laws import TIME, Form, Law, Place, Terms, places
 from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, over_all, remembering, screen, seen
-from pysim.diagnosis.left import Floors
+from pysim.diagnosis.left import tone_rate
 from pysim.diagnosis.refit import FinalFit, Pairs, converged, left_out
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
-from pysim.diagnosis.tone import tone_rate
+from pysim.effects.learned import curve_basis
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput
 from pysim.types.answer import GainTest, Verdict

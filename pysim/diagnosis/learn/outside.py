@@ -16,13 +16,13 @@ from numpy.typing import NDArray
 
 from pysim.diagnosis import rivals
 from pysim.diagnosis.learn.basis import knots
-from pysim.diagnosis.learn.curve import curve_basis
 from pysim.diagnosis.learn.described import SHOWN, covariance_of
-from pysim.diagnosis.learn.laws import quotient
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.learn.screening import first_order
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.settings import LearnSettings
+from pysim.effects.law_units import quotient
+from pysim.effects.learned import curve_basis
 from pysim.identify.greybox.residuals import Channel
 from pysim.simulate import simulate_many
 from pysim.types import BadInput, Experiment, Model, Outcome, Signal

@@ -50,7 +50,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     def simulate_many(_: Any, experiments: Sequence[Experiment], **__: Any) -> list[Record]:
         return [linear.steady_output(experiment) for experiment in experiments]
 
-    monkeypatch.setattr(import_module("pysim.diagnosis.response_comparison"), "simulate_many", simulate_many)
+    monkeypatch.setattr(import_module("pysim.identify.response_comparison"), "simulate_many", simulate_many)
     monkeypatch.setattr("pysim.workflow.model.read_model", lambda path: linear.model())
     return tmp_path
 
@@ -113,7 +113,7 @@ def test_mistakes_are_one_line_before_the_runs(
     folder: Path, words: list[str], named: list[str], monkeypatch: pytest.MonkeyPatch,
     capsys: pytest.CaptureFixture[str],
 ) -> None:  # fmt: skip
-    comparison = import_module("pysim.diagnosis.response_comparison")
+    comparison = import_module("pysim.identify.response_comparison")
     monkeypatch.setattr(comparison, "simulate_many", None)  # a run would be our bug
     for name, content in {"file": "", "list.toml": "k = [1]", "text.toml": 'k = "2"', "half.toml": "k ="}.items():
         (folder / name).write_text(content)

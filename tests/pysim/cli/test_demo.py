@@ -70,7 +70,7 @@ def demo(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Path:
     monkeypatch.setattr("pysim.identify.greybox.helper_processes", in_this_process)
     monkeypatch.setattr("pysim.cli.commands.demo.draw_picture", draw_picture)
     monkeypatch.setattr("pysim.thesis.pump_model", pump_model)
-    monkeypatch.setattr(import_module("pysim.diagnosis.response_comparison"), "simulate_many", simulate_many)
+    monkeypatch.setattr(import_module("pysim.identify.response_comparison"), "simulate_many", simulate_many)
     return tmp_path / "results" / "demo"
 
 

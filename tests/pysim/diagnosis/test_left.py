@@ -10,7 +10,8 @@ import pytest
 from numpy.typing import NDArray
 
 from pysim.diagnosis.candidate import Models
-from pysim.diagnosis.left import Floors, Follows, follows, white_floors
+from pysim.diagnosis.floors import Floors, white_floors
+from pysim.diagnosis.left import Follows, follows
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.rivals import of
 from pysim.types import Dataset, Record

@@ -7,8 +7,8 @@ import pytest
 
 from pysim.diagnosis import diagnose
 from pysim.diagnosis.candidate import Models
-from pysim.diagnosis.left import follows, logs, white_floors
-from pysim.diagnosis.tone import tone
+from pysim.diagnosis.floors import logs, white_floors
+from pysim.diagnosis.left import follows, tone
 from pysim.types import Dataset, Record
 from tests.pysim.diagnosis.plants import given, measured, refitted
 

@@ -11,7 +11,7 @@ import pytest
 
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Models, Refused
-from pysim.diagnosis.left import Floors
+from pysim.diagnosis.floors import Floors
 from pysim.diagnosis.refit import FinalFit, begin, converged
 from pysim.diagnosis.screen import Screened, Sizes, best_of_each, screen, screened
 from pysim.diagnosis.search import Found

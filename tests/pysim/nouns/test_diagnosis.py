@@ -124,6 +124,19 @@ def test_a_learned_law_becomes_an_effect_of_the_users(missing: Law, mass: Model,
     assert after < 0.1 * before
 
 
+def test_the_formula_of_a_law_becomes_an_effect_too(missing: Law, mass: Model, data: Dataset) -> None:
+    """Its amounts and widths are the effect's parameters; on the data it is as good as the curve."""
+    curve, formula = missing.to_effect("my.rubbing"), missing.to_effect("my.rubbing", formula=True)
+    assert formula.file != curve.file
+    assert {one.name[:2] for one in formula.found.parameters} <= {"a_", "w_"}
+    beside = [mass.with_effects(one).set(**missing.found.parameters) for one in (curve, formula)]
+    by_curve, by_formula = pysim.compare(*beside, data).table["x noise"][::2]
+    assert by_formula == pytest.approx(by_curve, rel=0.1)
+    level = replace(missing.found, coefficients=0 * missing.found.coefficients)
+    with pytest.raises(BadInput, match="no formula"):
+        replace(missing, found=level).to_effect("my.nothing", formula=True)
+
+
 def drag(**more: object) -> dict[str, object]:
     return {"at": "force", "law": "-F_0*tanh(v/0.02) - c_2*v*abs(v)",
             "F_0": (0, 5, 0.3, "N"), "c_2": (0, 10, 1, "N.s2/m2"), **more}  # fmt: skip

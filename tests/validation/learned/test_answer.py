@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from pysim.diagnosis import Session
-from pysim.diagnosis.learn.curve import curve_basis
+from pysim.effects.learned import curve_basis
 from pysim.types import Estimate
 from pysim.types.answer import Diagnosis, ErrorStep, LearnedLaw, Left
 from pysim.types.factor import Factor, Form

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from pysim.diagnosis import compare_responses
+from pysim.identify import compare_responses
 from pysim.io import read_dataset
 from pysim.present.comparison import bode_figure, deviation_figure
 from pysim.thesis import NOTE, differences, published_deviations, pump_model, write_dataset

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from pysim.diagnosis.learn.basis import Smoothness, bends, closer, knots, missed, solve
-from pysim.diagnosis.learn.curve import curve_basis
+from pysim.effects.learned import curve_basis
 
 
 def test_knots_are_dense_around_zero_where_a_signal_crosses_it() -> None:

@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from pysim.diagnosis.learn.curve import curve_basis
-from pysim.diagnosis.learn.laws import Form, Law, Terms, places, quotient
+from pysim.diagnosis.learn.laws import Form, Law, Terms, places
 from pysim.diagnosis.learn.screening import distinct
 from pysim.effects import Slot
+from pysim.effects.law_units import quotient
+from pysim.effects.learned import curve_basis
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Signal
 from tests.known_answers.plants import PLANTS

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pysim.diagnosis.failures import ALL_LOGS, ALL_SINES, bands, failures
+from pysim.identify.failures import ALL_LOGS, ALL_SINES, bands, failures
 from pysim.types import Record, RecordFit
 from tests.pysim.diagnosis_answer import WAVE, dataset, stage
 

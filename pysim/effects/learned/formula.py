@@ -17,9 +17,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from fmu_build.text.expressions import parse
-from pysim.diagnosis.learn.curve import curve_basis
-from pysim.diagnosis.learn.expression import derivative, modelica, replaced, smooth, value
-from pysim.diagnosis.learn.laws import quotient
+from pysim.effects.law_units import quotient
+from pysim.effects.learned.curve import curve_basis
+from pysim.effects.learned.expression import derivative, modelica, replaced, smooth, value
 from pysim.types import EffectParameter
 from pysim.types.answer import LearnedLaw
 

@@ -8,9 +8,8 @@ from collections.abc import Callable, Iterator, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from pysim.diagnosis.settings import Settings
-from pysim.diagnosis.tone import clearest
 from pysim.identify.residual_spectrum import FEWEST, residual_spectrum
+from pysim.identify.spectral_line import LineSettings, spectral_line
 from pysim.types import Dataset, MeasuredRecord, RecordFit
 from pysim.types.answer import Failure
 
@@ -55,8 +54,8 @@ def _own(record: RecordFit) -> Iterator[Failure]:
                 yield Failure(record.source, signal, window, _size(values[part]))
         if values.size >= FEWEST:
             frequency, power, _ = residual_spectrum(residual.time, values)
-            line = clearest(residual.time, values)
-            if line is not None and line[0] < Settings().false_alarm:
+            line = spectral_line(residual.time, values)
+            if line is not None and line[0] < LineSettings().false_alarm:
                 size = float(np.interp(line[1], frequency, power))
                 yield Failure(record.source, signal, f"{line[1]:.3g} Hz alone", math.sqrt(size))
             for band in bands(frequency):

@@ -9,17 +9,10 @@ from dataclasses import replace
 import numpy as np
 
 from fmu_build.version import DISTRIBUTION, version
-from pysim.identify import (
-    THESIS_REFERENCE_HZ,
-    SteadyRun,
-    SteppedSine,
-    frequency_deviations,
-    frequency_response,
-    magnitude_db,
-    run_until_settled,
-    stepped_sine,
-)
-from pysim.identify.settling import TOLERANCE
+from pysim.identify.accuracy import frequency_deviations
+from pysim.identify.frequency_response import THESIS_REFERENCE_HZ, frequency_response, magnitude_db
+from pysim.identify.settling import TOLERANCE, SteadyRun, run_until_settled
+from pysim.identify.stepped_sine import SteppedSine, stepped_sine
 from pysim.simulate import Rodas, Solver, simulate_many
 from pysim.types import (
     BadInput,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.signal import lfilter
 
-from pysim.diagnosis.tone import clearest, periodogram
+from pysim.identify.spectral_line import periodogram, spectral_line
 
 RATE, COUNT = 250.0, 7500
 TIMES = np.arange(COUNT) / RATE
@@ -24,7 +24,7 @@ def noise(colour: str, seed: int) -> np.ndarray:
 @pytest.mark.parametrize("colour", COLOURS)
 def test_noise_of_any_colour_holds_no_tone(colour: str) -> None:
     """Of 200 logs at one percent, more than eight have a chance of 1e-3."""
-    found = [clearest(TIMES, noise(colour, seed)) for seed in range(200)]
+    found = [spectral_line(TIMES, noise(colour, seed)) for seed in range(200)]
     assert sum(one is not None and one[0] < 0.01 for one in found) <= 8
 
 
@@ -33,16 +33,16 @@ def test_noise_of_any_colour_holds_no_tone(colour: str) -> None:
 def test_a_tone_is_heard(colour: str, frequency: float) -> None:
     """A sine of amplitude a has n a^2/4 times the power of a white line; Hann's window leaves two thirds."""
     rest = noise(colour, 1) + 1.0 * np.sin(2 * np.pi * frequency * TIMES)
-    chance, heard = clearest(TIMES, rest) or (1.0, 0.0)
+    chance, heard = spectral_line(TIMES, rest) or (1.0, 0.0)
     assert chance < 1e-3
     assert heard == pytest.approx(frequency, abs=RATE / COUNT)
 
 
 def test_short_and_uneven_logs_tell_nothing() -> None:
     rest = noise("white", 1)
-    assert clearest(TIMES[:50], rest[:50]) is None
+    assert spectral_line(TIMES[:50], rest[:50]) is None
     jitter = TIMES + np.random.default_rng(1).uniform(0, 0.3 / RATE, COUNT)
-    assert clearest(jitter, rest) is None
+    assert spectral_line(jitter, rest) is None
 
 
 def test_the_periodogram_of_logs_a_day_apart_is_that_of_its_definition() -> None:

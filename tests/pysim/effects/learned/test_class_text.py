@@ -13,10 +13,8 @@ from numpy.typing import NDArray
 from scipy.integrate import solve_ivp
 
 from fmu_build import build
-from pysim.diagnosis.learn.curve import curve_basis
-from pysim.diagnosis.learn.formula import formulas
-from pysim.diagnosis.learn.law_class import law_class
 from pysim.effects import STANDARD_LIBRARY, read_catalogue, slots
+from pysim.effects.learned import curve_basis, formulas, learned_class
 from pysim.io import read_model
 from pysim.simulate import Rodas, simulate
 from pysim.types import BadInput, Experiment, Model, Signal
@@ -89,7 +87,7 @@ def learned(slot: str, factor: Factor, argument: str, reach: float, unit_in: str
 
 def with_law(lab: Sequence[Path], model: str, law: LearnedLaw, **more: Any) -> Model:
     slot = next(one for one in slots(f"Lab.{model}", lab) if one.name == law.slot)
-    text = law_class(law, slot, "Own", lab, effect="learned.own")
+    text = learned_class(law, slot, "Own", lab, effect="learned.own")
     return with_term(Variants(f"Lab.{model}", tuple(lab)), text, **more)[0]
 
 
@@ -235,7 +233,7 @@ def test_a_formula_is_handed_on_with_its_rate(lab: tuple[Path, ...]) -> None:
     formula = formulas(law)[0]
     assert formula.shapes == ("smooth sign",)
     slot = next(one for one in slots("Lab.Signals", lab) if one.name == "link")
-    text = law_class(law, slot, "Own", lab, effect="learned.own", formula=formula)
+    text = learned_class(law, slot, "Own", lab, effect="learned.own", formula=formula)
     y, y_t = outputs(with_term(Variants("Lab.Signals", lab), text)[0], "y", "y_t")
     s = np.sin(3 * TIME)
     assert y == pytest.approx(s + 0.3 * np.tanh(s / 0.4), abs=0.01)
@@ -289,16 +287,16 @@ def test_what_cannot_be_written_is_refused(
 ) -> None:
     known = {one.name: one for name in ("Mass", "Signals") for one in slots(f"Lab.{name}", lab)}
     with pytest.raises(BadInput, match=said):
-        law_class(learned(slot, factor, "x", 1.0, "m", unit, 1.0), known[slot], "Own", lab)
+        learned_class(learned(slot, factor, "x", 1.0, "m", unit, 1.0), known[slot], "Own", lab)
 
 
 def test_units_that_are_not_si_are_not_looked_at(lab: tuple[Path, ...]) -> None:
     slot = next(one for one in slots("Lab.Mass", lab) if one.name == "force")
-    text = law_class(learned("force", V, "x", 1.0, "mm", "lbf.s/mm", 1.0), slot, "Own", lab)
+    text = learned_class(learned("force", V, "x", 1.0, "mm", "lbf.s/mm", 1.0), slot, "Own", lab)
     assert 'each unit="lbf.s/mm"' in text
 
 
 def test_a_law_of_its_own_kind_has_no_place_for_another(lab: tuple[Path, ...]) -> None:
     flow = next(one for one in slots("HydraulicTestBench.LoadCircuit.OpenTestBench", lab) if one.name == "pumpFlow")
     with pytest.raises(BadInput, match="several kinds"):
-        law_class(learned("pumpFlow", ONE, "alpha", 1.0, "rad", "m3/s", 1.0), flow, "Own", lab)
+        learned_class(learned("pumpFlow", ONE, "alpha", 1.0, "rad", "m3/s", 1.0), flow, "Own", lab)

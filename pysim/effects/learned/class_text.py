@@ -14,10 +14,12 @@ from numpy.typing import NDArray
 from fmu_build.text import class_text
 from fmu_build.text.expressions import parse
 from fmu_build.text.write import quoted
-from pysim.diagnosis.learn.curve import CURVE, RAMP, SLOPE, widths
-from pysim.diagnosis.learn.formula import REACH, Formula, rounded_up
-from pysim.effects import VENDOR, Filling, Slot, filling, parameter_text, slot_units
+from pysim.effects.catalogue import VENDOR
 from pysim.effects.law import check_units, dimension, dimension_words
+from pysim.effects.law_class import parameter_text, slot_units
+from pysim.effects.learned.curve import CURVE, RAMP, SLOPE, widths
+from pysim.effects.learned.formula import REACH, Formula, rounded_up
+from pysim.effects.slots import Filling, Slot, filling
 from pysim.types import BadInput, Effect, EffectParameter
 from pysim.types.answer import LearnedLaw
 from pysim.types.factor import Factor, Form
@@ -25,7 +27,7 @@ from pysim.types.factor import Factor, Form
 Array = NDArray[np.float64]
 
 
-def law_class(
+def learned_class(
     law: LearnedLaw,
     slot: Slot,
     name: str,
@@ -50,7 +52,7 @@ def law_class(
         name: of the class.
         libraries: contain the slot's present class and its partial class.
         effect: its name in the catalogue; "" for a class that a diagnosis does not try.
-        formula: takes the place of the curve, see `formula.formulas`.
+        formula: takes the place of the curve, see `formulas`.
         inner: an effect in the same slot, which becomes part of the class, since a slot takes one class only.
     Raises:
         BadInput: the slot's class does not give its variable by an equation `y = ...`, or units do not match.

@@ -8,8 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from pysim.diagnosis.learn.curve import curve_basis
-from pysim.diagnosis.learn.formula import SHAPES, Formula, Shape, formulas
+from pysim.effects.learned import SHAPES, Formula, Shape, curve_basis, formulas
 from pysim.types import EffectParameter
 from pysim.types.answer import LearnedLaw
 from pysim.types.factor import Factor, Form

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from pysim.diagnosis import compare_responses
+from pysim.identify import compare_responses
 from pysim.simulate import Rk4
 from pysim.types import BadInput, Experiment, MeasuredRecord, Record
 from tests.pysim import comparisons as linear
@@ -29,7 +29,7 @@ def _replace(monkeypatch: pytest.MonkeyPatch, answer: Callable[[Experiment], Rec
             progress(len(records), len(records))
         return records
 
-    monkeypatch.setattr(import_module("pysim.diagnosis.response_comparison"), "simulate_many", simulate_many)
+    monkeypatch.setattr(import_module("pysim.identify.response_comparison"), "simulate_many", simulate_many)
 
 
 def test_the_true_system_passes_with_no_deviation(runs: list[Experiment]) -> None:
