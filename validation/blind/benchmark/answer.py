@@ -39,6 +39,7 @@ class Answer:
         errors: step -> error of its model on the wave that the diagnosis was not given, against the readings without
             noise and over the noise, root mean square; none of a model that cannot be simulated there.
         detectability: squares over noise by which the refitted base model is off the noise-free fitted readings.
+        remaining: the same of the model with all that was found.
         cpu, wall: s of the diagnosis, one thread, compiling included.
         stages: wall time of each of its stages, s.
         trouble: why there is no answer.
@@ -56,6 +57,7 @@ class Answer:
     complete: bool = False
     errors: Mapping[str, float | None] | None = None
     detectability: float | None = None
+    remaining: float | None = None
     cpu: float = 0.0
     wall: float = 0.0
     stages: Mapping[str, float] | None = None
@@ -82,7 +84,8 @@ class Answer:
         where = f"; learned at {', '.join(self.learned)}" if self.learned else ""
         return (
             f"{self.case}: truth {truth}; named {named}{where}; tied {ties}; {said}; unseen {steps}; "
-            f"detectability {self.detectability or 0:.3g}; {self.cpu:.0f} CPU s, {self.wall:.0f} s"
+            f"detectability {self.detectability or 0:.3g}, then {self.remaining or 0:.3g}; "
+            f"{self.cpu:.0f} CPU s, {self.wall:.0f} s"
         )
 
 
@@ -124,6 +127,7 @@ def examine(case: Case, measured: Measured, *, few: bool = False) -> Answer:
         **_said(found),
         errors={step.name: _error(step, measured) for step in steps_of(PUMP.whole(found), PUMP)},
         detectability=_detectability(found.history[1], measured),
+        remaining=_detectability(found.history[-1], measured),
         wall=round(wall, 1),
         cpu=round(cpu, 1),
         stages={name: round(seconds, 1) for name, seconds in found.seconds.items()},
@@ -162,11 +166,11 @@ def _error(step: Step, measured: Measured) -> float | None:
     return round(math.sqrt(sum(own) / len(own)), 4)
 
 
-def _detectability(base: ErrorStep, measured: Measured) -> float:
+def _detectability(step: ErrorStep, measured: Measured) -> float:
     """Sum of squares over the noise, of all samples that were fitted: of stepped sines, once they have settled."""
     total = 0.0
     times = {log.source: log.data.time for log in measured.dataset.records if isinstance(log.data, Record)}
-    for record in base.records:
+    for record in step.records:
         if record.use == "fit":
             fitted = np.isin(times[record.source], record.measured.time)
             clean = dict(zip(_COLUMNS, measured.clean[record.source][fitted].T, strict=True))

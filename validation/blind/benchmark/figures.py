@@ -22,7 +22,8 @@ _SENSORS = {"offset": "sensor.offset", "gain": "sensor.gain", "shift": "sensor.d
 def figures(answers: Sequence[Answer]) -> Iterator[Share]:
     """How often names, their order and their absence are right."""
     named, none, shaped, pairs = (_of_kind(answers, kind) for kind in ("named", "none", "shaped", "pair"))
-    outside = _of_kind(answers, "beyond") + _of_kind(answers, "left-out")
+    whole = [a for a in pairs if _both(a) or a.remaining is None or a.remaining >= DETECTABLE]
+    outside = [a for a in _of_kind(answers, "beyond") + _of_kind(answers, "left-out") if detectable(a)]
     large, small = [a for a in named if detectable(a)], [a for a in named if not detectable(a)]
     yield _share("right effect named first, detectability 100 or more", large, right_first, (95, 100))
     yield _share("right effect among the first two, detectability 100 or more", large, first_two, (99, 100))
@@ -32,7 +33,8 @@ def figures(answers: Sequence[Answer]) -> Iterator[Share]:
     yield _share("a wrong effect named, detectability below 100", small, _wrong)
     yield _share("right effect named first though its law has another shape", shaped, right_first, (80, 100))
     yield _share("a law of another shape said to be complete", shaped, lambda a: a.complete and not a.learned)
-    yield _share("two effects at once, both named", pairs, lambda a: set(a.truth) <= set(a.named), (85, 100))
+    yield _share("two effects at once, both named", pairs, _both)
+    yield _share("the same, without pairs of which less than 100 remains", whole, _both, (85, 100))
     yield _share("an effect outside the catalogue answered with unknown", outside, lambda a: a.refuses, (90, 100))
     yield _share("a name given to an effect outside the catalogue", outside, lambda a: bool(a.named), (0, 5))
     yield _share("a law learned for an effect outside the catalogue", outside, lambda a: bool(a.learned))
@@ -75,6 +77,10 @@ def tied(answer: Answer) -> bool:
 def first_two(answer: Answer) -> bool:
     """The effect is the first or second name, or one of the best two beside the refitted base model."""
     return answer.truth[0] in (*answer.named[:2], *answer.second)
+
+
+def _both(answer: Answer) -> bool:
+    return set(answer.truth) <= set(answer.named)
 
 
 def _wrong(answer: Answer) -> bool:
