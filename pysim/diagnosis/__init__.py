@@ -6,7 +6,7 @@
 """
 
 from pysim.diagnosis.engine import add, compare, diagnose, learn, rank
-from pysim.diagnosis.session import BuildVariant, Session, identifiable, session
+from pysim.diagnosis.session import BuildVariant, Session, session
 from pysim.diagnosis.settings import Settings
 
 __all__ = [
@@ -16,7 +16,6 @@ __all__ = [
     "add",
     "compare",
     "diagnose",
-    "identifiable",
     "learn",
     "rank",
     "session",

@@ -5,7 +5,6 @@ Stepped sines are compared by the model's periodic orbit, or "transient": simula
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnosis.session import Session
+from pysim.effects import makes_events
 from pysim.identify.greybox import Nuisance, Parameter, Point, Problem, Simulation, WeightedResiduals
 from pysim.identify.greybox.objective import NOISE
 from pysim.identify.greybox.parameters import ParameterSpace, parameter_space
@@ -28,11 +28,6 @@ Array = NDArray[np.float64]
 # Key of a free parameter: its name in the base model, or the names of the effect and of the effect's parameter.
 Key = str | tuple[str, str]
 Values = Mapping[Key, float]
-
-# Modelica text that makes events, calls inside which a relation makes none, and strings and comments.
-_SWITCHES = re.compile(r"\b(when|pre|sample|reinit|edge|change|div|mod|rem|ceil|floor|integer)\b|[<>]")
-_NO_EVENT = re.compile(r"\b(noEvent|smooth)\s*\(")
-_WORDS = re.compile(r'"(?:[^"\\]|\\.)*"|//[^\n]*|/\*.*?\*/', re.DOTALL)
 
 
 @dataclass(frozen=True)
@@ -171,14 +166,14 @@ class Models:
     """Makes candidates and compiles each model once.
 
     Effects without events are compiled together into one model, or into several models if that fails. An effect with
-    events, or one that no value switches off (`bypass`), gets a model of its own. The search uses smooth forms.
+    events, or one that no value makes_events off (`bypass`), gets a model of its own. The search uses smooth forms.
     """
 
     def __init__(self, session: Session) -> None:
         self.session = session
         self._built: dict[tuple[str, ...], tuple[Model, Mapping[str, str]]] = {}
         self._problems: dict[tuple[tuple[str, ...], bool], Problem] = {}
-        smooth = tuple(e for e in map(searched, session.catalogue) if not (e.bypass or switches(e)))
+        smooth = tuple(e for e in map(searched, session.catalogue) if not (e.bypass or makes_events(e)))
         self._together = [smooth] if smooth else []
         self.refused: dict[str, Refused] = {}
         self.watch: Callable[[Any], object] | None = None
@@ -193,17 +188,9 @@ class Models:
         Raises:
             BadInput: the model cannot be compiled.
         """
-        effects = tuple(effects)
         laws = tuple(map(searched, effects))
-        built, has_events = self._with_others(laws), any(map(switches, laws))
-        transient |= has_events or self.all_transient
-        model, places = self._variant(built)
-        problem = self._problem(built, transient)
-        own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
-        space = parameter_space(model, [*self.session.parameters, *own])
-        kept = {effect.name: places[effect.name] for effect in effects}
-        problem = replace(problem, space=space)
-        return Candidate(effects, tuple(nuisances), problem, kept, transient, has_events, watch=self.watch)
+        made = self._made(effects, nuisances, laws, self._with_others(laws), transient)
+        return replace(made, watch=self.watch)
 
     def of_parts(self, parts: Sequence[Effect | Nuisance], *, transient: bool = False) -> Candidate:
         """Like `of`, for effects and sensor errors in one list."""
@@ -235,11 +222,25 @@ class Models:
         Raises:
             BadInput: the model cannot be compiled.
         """
-        effects = tuple(effects)
-        has_events = any(map(switches, effects))
+        return self._made(effects, nuisances, tuple(effects), tuple(effects), transient)
+
+    def _made(
+        self,
+        effects: Sequence[Effect],
+        nuisances: Sequence[Nuisance],
+        laws: tuple[Effect, ...],
+        built: tuple[Effect, ...],
+        transient: bool,
+    ) -> Candidate:
+        """The candidate whose effects have these laws, in a model that is compiled with others too."""
+        has_events = any(map(makes_events, laws))
         transient |= has_events or self.all_transient
-        _, places = self._variant(effects)
-        return Candidate(effects, tuple(nuisances), self._problem(effects, transient), places, transient, has_events)
+        model, places = self._variant(built)
+        problem = self._problem(built, transient)
+        own = [parameter(places[e.name], p) for e in effects for p in e.parameters]
+        space = parameter_space(model, [*self.session.parameters, *own])
+        kept = {effect.name: places[effect.name] for effect in effects}
+        return Candidate(tuple(effects), tuple(nuisances), replace(problem, space=space), kept, transient, has_events)
 
     @cached_property
     def all_transient(self) -> bool:
@@ -300,15 +301,3 @@ def parameter(place: str, p: EffectParameter) -> Parameter:
 def searched(effect: Effect) -> Effect:
     """The form in which an effect is searched: its smooth one if it has one."""
     return effect.smooth or effect
-
-
-def switches(effect: Effect) -> bool:
-    """Whether the effect's law makes events: it has `when`, `pre` or the like, or a relation outside `noEvent`."""
-    law = _WORDS.sub("", effect.law)
-    while found := _NO_EVENT.search(law):
-        depth, end = 1, found.end()
-        while depth and end < len(law):
-            depth += {"(": 1, ")": -1}.get(law[end], 0)
-            end += 1
-        law = law[: found.start()] + law[end:]
-    return bool(_SWITCHES.search(law))

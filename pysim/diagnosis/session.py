@@ -16,7 +16,7 @@ from pysim.identify import THESIS_REFERENCE_HZ
 from pysim.identify.adequacy import shortcomings
 from pysim.identify.greybox import Measurements, Parameter, Problem, Rest, Threads, Treatment, problem
 from pysim.identify.greybox.context import on_one_clock
-from pysim.identify.greybox.parameters import ParameterSpace
+from pysim.identify.greybox.parameters import ParameterSpace, identifiable
 from pysim.identify.greybox.problem import beside
 from pysim.types import BadInput, Dataset, Effect, Model, Note, NoteCode
 
@@ -166,24 +166,3 @@ def session(
     open_ = [name for name, lower, upper in found if not (math.isfinite(lower) and math.isfinite(upper))]
     more += [Note(NoteCode.UNBOUNDED, {"parameters": ", ".join(open_)})] if open_ else []
     return replace(given, notes=(*notes, *more))
-
-
-def identifiable(model: Model) -> tuple[str, ...]:
-    """Real parameters with min, max, nominal and start value: those that may differ between machines of one kind.
-
-    Raises:
-        BadInput: the model has none.
-    """
-    found = tuple(
-        v.name
-        for v in model.variables
-        if v.causality == "parameter"
-        and v.type in ("Real", "Float64")
-        and v.min is not None
-        and v.max is not None
-        and v.nominal is not None
-        and v.start is not None
-    )
-    if not found:
-        raise BadInput(f"{model.label} gives no parameter min, max and nominal; name those to refit, and their bounds")
-    return found

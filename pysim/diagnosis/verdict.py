@@ -9,13 +9,14 @@ import numpy as np
 from scipy.special import fdtri
 
 from pysim.diagnosis import rivals
-from pysim.diagnosis.candidate import Refused, sensor_name, switches
+from pysim.diagnosis.candidate import Refused, sensor_name
 from pysim.diagnosis.learn.learn import Learning
 from pysim.diagnosis.left import Follows
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.search import Compared, Found, Table
 from pysim.diagnosis.session import TEST, Session
 from pysim.diagnosis.settings import Settings
+from pysim.effects import makes_events
 from pysim.identify.greybox import Nuisance, NuisanceKind
 from pysim.identify.greybox.effective_size import inflation
 from pysim.identify.greybox.trust import at_bound
@@ -164,7 +165,7 @@ def notes_of(
 def note_of_laws(learning: Learning | None, final: FinalFit) -> Note:
     """Why no law was learned beside the final model."""
     if learning is None:
-        names = ", ".join(effect.name for effect in final.candidate.effects if switches(effect))
+        names = ", ".join(effect.name for effect in final.candidate.effects if makes_events(effect))
         return Note(NoteCode.LAWS_NOT_TRIED, {"effects": names})
     if learning.test is None:
         places = ", ".join(dict.fromkeys(one.law.place.name for one in learning.ranked)) or "no place"

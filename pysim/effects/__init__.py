@@ -2,6 +2,7 @@
 
 from pysim.effects._text import declares
 from pysim.effects.catalogue import STANDARD_LIBRARY, VENDOR, Pair, law_constants, read_catalogue, read_pairs
+from pysim.effects.events import makes_events
 from pysim.effects.law_class import LawRefused, law_class, law_equations, parameter_text, slot_units
 from pysim.effects.law_units import parameter_units
 from pysim.effects.sketch import Sketch, law_sketch
@@ -24,6 +25,7 @@ __all__ = [
     "law_constants",
     "law_equations",
     "law_sketch",
+    "makes_events",
     "parameter_text",
     "parameter_units",
     "read_catalogue",

@@ -9,8 +9,8 @@ from collections.abc import Iterator, Mapping
 import numpy as np
 import pytest
 
-from pysim.diagnosis.candidate import searched, switches
-from pysim.effects import variant
+from pysim.diagnosis.candidate import searched
+from pysim.effects import makes_events, variant
 from pysim.io import read_model
 from pysim.simulate import simulate
 from pysim.types import Experiment, Signal
@@ -102,7 +102,7 @@ def test_play_that_is_off_is_off_from_any_start() -> None:
 
 def test_what_a_search_builds_together_is_the_base_model_while_it_is_off() -> None:
     """A law that only comes close to off, such as a short lag, is beside other effects no longer what a fit absorbs."""
-    laws = [law for law in map(searched, CATALOGUE.values()) if not (law.bypass or switches(law))]
+    laws = [law for law in map(searched, CATALOGUE.values()) if not (law.bypass or makes_events(law))]
     made = variant(BASE, laws, [LIBRARY], name="Variant")
     off = {made.parameter(law.name, p.name): float(p.off or 0) for law in laws for p in law.strengths}
     times = np.arange(0.0, 1.5, 1e-3)
@@ -326,7 +326,7 @@ def test_the_smooth_form_of_sampling_is_its_mean(monkeypatch: pytest.MonkeyPatch
     sampled = ran(("card.sampling",), values, ("alphaPercent",))["alphaPercent"]
     smooth = CATALOGUE["card.sampling"].smooth
     assert smooth is not None
-    assert not switches(smooth)
+    assert not makes_events(smooth)
     monkeypatch.setitem(CATALOGUE, "smooth", smooth)
     record = ran(("smooth",), {"card.sampling": values["card.sampling"]}, ("alphaPercent",))["alphaPercent"]
     assert np.abs(sampled - plain).max() > 0.1

@@ -15,7 +15,6 @@ from pysim.diagnosis.learn.laws import Law
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.learn.screening import LawModel, Ranked
 from pysim.diagnosis.refit import FinalFit, advance, exact
-from pysim.diagnosis.settings import Settings
 from pysim.identify.greybox import GaussNewton, Point, Simulation
 from pysim.identify.greybox.residuals import Carried, with_rows
 from pysim.types import Estimate
@@ -192,14 +191,14 @@ def moved(one: LawFit, points: int) -> LawFit:
     return replace(found, fit=replace(found.fit, state=replace(found.fit.state, memory=memory)))
 
 
-def settled(one: LawFit, points: int) -> LawFit:
-    """Alternate `points` iterations and an update of the smoothness until both have settled."""
+def settled(one: LawFit, points: int, enough: float) -> LawFit:
+    """Alternate `points` iterations and an update of the smoothness until both gain less than `enough` nats."""
     for _ in range(_ROUNDS):
         edf, cost = one.edf, one.fit.point.cost
         one = moved(one, points)
         if not one.fit.good:
             break
-        stands = one.fit.state.outcome is not None or cost - one.fit.point.cost < Settings().least_gain
+        stands = one.fit.state.outcome is not None or cost - one.fit.point.cost < enough
         if stands and abs(one.edf - edf) < _SETTLED:
             break
     return one

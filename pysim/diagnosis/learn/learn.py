@@ -181,7 +181,7 @@ class Learner:
         Only the last refit has the solver settings of models that are kept; those before are rougher and cheaper.
         """
         settings, rough = self._settings, self._rough.simulation
-        best = settled(one, settings.heat)
+        best = settled(one, settings.heat, self._session.settings.least_gain)
         while best.fit.good and best.coarse and 2 * best.knots.size - 1 <= settings.most_knots:
             finer = self._model(best.law.place, 2 * best.knots.size - 1, memory=best.model.memory)
             if finer is None:
@@ -190,7 +190,7 @@ class Learner:
             x = np.append(best.fit.point.x[: -best.knots.size], curve_basis(k, best.knots) @ best.values)
             smooth = replace(best.smoothness, knots=k)
             again = started(finer, best.law, k, best.unit, smooth, x, rough, best.fit.point.carried)
-            again = settled(again, settings.heat)
+            again = settled(again, settings.heat, self._session.settings.least_gain)
             if not again.fit.good or self._scored(again) >= self._scored(best):
                 break
             best = again
@@ -199,7 +199,7 @@ class Learner:
             again = started(best.model, *own, point.x, simulation, point.carried)
             if not again.fit.good:
                 return one
-            best = ended(settled(again, settings.heat))
+            best = ended(settled(again, settings.heat, self._session.settings.least_gain))
         return best
 
     def _finer(self, rough: Simulation) -> list[Simulation]:

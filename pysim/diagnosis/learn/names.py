@@ -96,7 +96,7 @@ def _without(
     made = LawModel(law.law.place, law.knots.size, present, model, terms.memory)
     x = np.append(candidate.at(values), law.fit.point.x[-len(law.own) :])
     found = started(made, law.law, law.knots, law.unit, law.smoothness, x, law.fit.simulation)
-    return ended(settled(found, settings.heat)) if found.fit.good else None
+    return ended(settled(found, settings.heat, session.settings.least_gain)) if found.fit.good else None
 
 
 def _kept(law: LawFit, part: Effect | Nuisance) -> Iterator[tuple[str | tuple[str, str], float]]:

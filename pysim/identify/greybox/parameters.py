@@ -234,3 +234,24 @@ def _resolved(model: Model, parameter: Parameter) -> tuple[float, float, float, 
 def _scale(variable: Variable, start: float, lower: float, upper: float) -> float:
     width = upper - lower if math.isfinite(upper - lower) else 1.0
     return max(abs(variable.nominal or 0.0), abs(start)) or width
+
+
+def identifiable(model: Model) -> tuple[str, ...]:
+    """Real parameters with min, max, nominal and start value: those that may differ between machines of one kind.
+
+    Raises:
+        BadInput: the model has none.
+    """
+    found = tuple(
+        v.name
+        for v in model.variables
+        if v.causality == "parameter"
+        and v.type in ("Real", "Float64")
+        and v.min is not None
+        and v.max is not None
+        and v.nominal is not None
+        and v.start is not None
+    )
+    if not found:
+        raise BadInput(f"{model.label} gives no parameter min, max and nominal; name those to refit, and their bounds")
+    return found

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from fmu_build import build
-from pysim.diagnosis.candidate import Models, switches
+from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.refit import begin
-from pysim.effects import STANDARD_LIBRARY, read_catalogue
+from pysim.effects import STANDARD_LIBRARY, makes_events, read_catalogue
 from pysim.io import read_model
 from pysim.types import BadInput, Effect, Model
 from tests.pysim.diagnosis.plants import FINE, catalogue, given, measured, refitted, variants
@@ -62,12 +62,12 @@ def test_a_law_has_events_where_its_model_has_event_indicators(law: str, tmp_pat
     library.write_text(LAWS.format(law=law), encoding="utf-8")
     (effect,) = read_catalogue(library)
     model = read_model(build("Laws.Mass", tmp_path / "Mass.fmu", libraries=[library]))
-    assert switches(effect) == (model.abilities.event_indicators > 0)
+    assert makes_events(effect) == (model.abilities.event_indicators > 0)
 
 
 def test_effects_of_the_pump_that_switch() -> None:
     """A sampled card: its model has time events, no other has any."""
-    found = {effect.name for effect in read_catalogue(STANDARD_LIBRARY) if switches(effect)}
+    found = {effect.name for effect in read_catalogue(STANDARD_LIBRARY) if makes_events(effect)}
     assert found == {"card.sampling"}
 
 
