@@ -17,7 +17,7 @@ class Answer:
         effects: names, the one whose leaving-out costs most first.
         complete: whether nothing else is missing; None where that was not answered.
         steps: from the refitted base model to the last effect or law.
-        learned: places of laws that were learned.
+        learned: place, factor and argument of laws that were learned.
     """
 
     effects: tuple[str, ...]
@@ -26,8 +26,14 @@ class Answer:
     learned: tuple[str, ...] = ()
 
 
-def answer(task: Task) -> Answer:
-    """Diagnose a task without the logs that are withheld."""
-    found = task.subject.whole(diagnose(task.subject.session(task.given)))
-    names, laws = tuple(one.effect.name for one in found.effects), tuple(law.slot for law in found.learned)
+def answer(task: Task, *, named: bool = True) -> Answer:
+    """Diagnose a task without the logs that are withheld.
+
+    Args:
+        named: False withholds the catalogue too, so that only laws can be learned.
+    """
+    left_out = () if named else [effect.name for effect in task.subject.catalogue]
+    found = task.subject.whole(diagnose(task.subject.session(task.given, left_out)))
+    names = tuple(one.effect.name for one in found.effects)
+    laws = tuple(f"{law.slot}, {str(law.factor) and f'{law.factor}*'}h({law.argument})" for law in found.learned)
     return Answer(names, found.all_named, steps_of(found, task.subject), laws)
