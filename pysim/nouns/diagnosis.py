@@ -212,7 +212,7 @@ class Diagnosis(Shown):
                 f"{ahead}.{p.name}": e.value for p, e in zip(one.effect.parameters, one.estimates, strict=True)
             }
         known = {v.name for v in grown.compiled.variables}
-        return replace(grown, values={**self.begun.values, **{n: v for n, v in values.items() if n in known}})
+        return replace(grown, values={**grown.values, **{n: v for n, v in values.items() if n in known}})
 
     def where(self) -> Where:
         """Where the model fails before anything was added, the worst region first."""

@@ -335,17 +335,22 @@ class Model(Shown):
     def with_effects(self, *effects: str | OwnEffect) -> Model:
         """Add effects of the catalogue by their names, or effects of your own.
 
-        Their parameters become free, but for the curve of a law that was learned: that has its values already.
+        Their parameters become free, but for the curve of a law that was learned: that has its values already. Values
+        of an FMU that its class does not have stay.
 
         Raises:
-            BadInput: the model's class is not at hand, no slot takes the effect, or it is there already.
+            BadInput: the model's class is not at hand or cannot be what its FMU is, no slot takes the effect, or it is
+                there already.
         """
+        from pysim.workflow.built_in import built_in
+
         wider, found = self._taking(effects)
         names = [one.name for one in (*self.effects_in, *found)]
         for name in names:
             if names.count(name) > 1:
                 raise BadInput(f"effect {name}: named twice, or there already; name each effect once")
-        grown = replace(wider, effects_in=(*self.effects_in, *found), label="")
+        values = {**built_in(self.base, wider.libraries), **self.values}
+        grown = replace(wider, effects_in=(*self.effects_in, *found), values=values, label="")
         learned = {f"{grown.places[e.name]}.{p.name}" for e in found for p in e.strengths if p.default != p.off}
         grown = replace(grown, held=grown.held | learned)  # they have their values already
         if self.chosen:

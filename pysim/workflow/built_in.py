@@ -1,4 +1,4 @@
-"""An FMU whose class is at hand: its values, so that candidates built from the class differ in their effect alone."""
+"""An FMU whose class is at hand: its values, so that models built from the class differ in their effect alone."""
 
 from __future__ import annotations
 

@@ -9,6 +9,7 @@ from pathlib import Path
 from pysim.io import write_file
 from pysim.present.report import joining
 from pysim.types import BadInput, Effect, Model
+from pysim.workflow.built_in import built_in
 from pysim.workflow.extended import PARAMETERS, copied, extended_name, needed, parameters_text
 from pysim.workflow.variants import Variants
 
@@ -29,13 +30,13 @@ def export_model(
         model: without the effects.
         variants: builds it with effects; None where its class is in no library.
         effects: that it has besides.
-        values: parameters that differ from its own, by their full names.
+        values: parameters that differ from its own, by their full names; a class gets those of the model's FMU too.
         folder: made where it is not there.
         fmi, platforms: of the FMU, as `fmu_build.build` says; an FMU of others stays as it is.
     Returns:
         "modelica", "fmu" and "parameters" -> path; beside them copies of the user's files that the class needs.
     Raises:
-        BadInput: a class that does not compile, or what `joining` refuses of the folder.
+        BadInput: a class that does not compile or cannot be what its FMU is, or what `joining` refuses of the folder.
     """
     own = {name: value for name, value in values.items() if not _is_state(model, name)}
     with joining(folder) as new:
@@ -43,6 +44,7 @@ def export_model(
             files = {"fmu": new / model.path.name}
             shutil.copyfile(model.path, files["fmu"])
         else:
+            own = built_in(model, variants.libraries) | own
             name = _name(variants, effects)
             files = {"modelica": new / f"{name}.mo", "fmu": new / f"{name}.fmu"}
             about = f"{variants.class_name}{' with ' if effects else ''}{', '.join(effect.name for effect in effects)}."
