@@ -413,6 +413,7 @@ class Model(Shown):
         """
         from pysim.simulate import Rodas, simulate
         from pysim.workflow import recorded_of
+        from pysim.workflow.fitting import refuse_unknown
 
         model, names = self.compiled, recorded_of(self.compiled, names_of(record, "record"))
         drives: dict[str, Signal] = {}
@@ -420,6 +421,7 @@ class Model(Shown):
             dt = None if dt is None else number_of(dt, "dt")
             if not (dt is None or dt > 0):
                 raise BadInput(f"simulate: there are no rows every {dt:g} s; give a time above zero", argument="dt")
+            refuse_unknown(initial)
             begun = None if inputs else self._begun(what, self.initial if initial is None else initial)
             if begun is not None:
                 assert isinstance(what.data, Record)

@@ -143,13 +143,18 @@ def beginning(dataset: Dataset, initial: str | None) -> Dataset:
     """
     if initial is None:
         return dataset
-    if initial not in INITIAL:
+    refuse_unknown(initial)
+    records = (replace(one, initial=initial) if isinstance(one.data, Record) else one for one in dataset.records)
+    return replace(dataset, records=tuple(records))
+
+
+def refuse_unknown(initial: Initial) -> None:
+    """Raise BadInput where that is neither one of the words, nor state -> value, nor None."""
+    if not (initial is None or isinstance(initial, Mapping) or initial in INITIAL):
         raise BadInput(
             f"initial = {initial!r} is not known; write {' or '.join(map(repr, INITIAL))}, or state: value",
             argument="initial",
         )
-    records = (replace(one, initial=initial) if isinstance(one.data, Record) else one for one in dataset.records)
-    return replace(dataset, records=tuple(records))
 
 
 def initial_values(model: Model, initial: Mapping[str, float]) -> dict[str, float]:

@@ -10,6 +10,7 @@ import pandas
 import pytest
 
 import pysim
+from pysim.identify.greybox.time_log import kept_columns
 from pysim.io import read_model
 from pysim.nouns.model import Model
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record, SimulationError
@@ -185,6 +186,20 @@ def test_a_run_without_a_log_begins_at_the_states_that_are_given(mass: Model) ->
     begun, set_ = mass.simulate(1.0, initial={"x": 0.1}), mass.set(x=0.1).simulate(1.0)
     assert begun["x"][0] == 0.1
     assert np.array_equal(begun["x"], set_["x"])
+
+
+@pytest.mark.parametrize("more", [{}, {"F": 1.0}])
+def test_a_word_for_the_first_sample_that_is_not_known_is_refused_of_any_log(
+    mass: Model, data: Dataset, more: dict[str, float]
+) -> None:
+    (log, *_) = data.logs()
+    assert isinstance(log.data, Record)
+    alone = replace(log, data=kept_columns(log.data, ("F",)))
+    for one in (log, alone):
+        with pytest.raises(BadInput) as refused:
+            mass.simulate(one, initial="rset", **more)
+        assert refused.value.argument == "initial"
+    assert np.array_equal(mass.simulate(alone, initial="rest")["x"], mass.simulate(alone, initial={})["x"])
 
 
 def test_a_log_drives_the_inputs_that_its_columns_are_named_like(mass: Model, data: Dataset) -> None:
