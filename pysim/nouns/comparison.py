@@ -31,8 +31,8 @@ def compare(*given: Any, initial: Initial = None, criteria: Criteria = None, pro
 
     Args:
         given: one model or several, then the measurements: `compare(before, after, data)`.
-        initial: of each log: "rest", "estimate", state -> value; None as the data say, else near rest. Initial states
-            that are not given are estimated from the log itself.
+        initial: of each log: "rest", "estimate", state -> value; None at states that were set, else as the data say,
+            else near rest. Initial states that are not given are estimated from the log itself.
         criteria: "thesis" judges logs by thesis Table 1.4; column of the table -> limit judges by your own.
         progress: see `pysim.present.progress.showing`.
     Raises:

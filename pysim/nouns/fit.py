@@ -44,8 +44,9 @@ def fit(
     Args:
         model: its `free_names` are changed, from their values on.
         data: what `pysim.load` gives.
-        initial: of the model at each log's first sample: "rest", "estimate" from the log, or state -> value; None as
-            the data say, and near rest where they say nothing. It holds for logs that are not fitted too.
+        initial: of the model at each log's first sample: "rest", "estimate" from the log, or state -> value; None at
+            states that were set, else as the data say, and near rest where they say nothing. It holds for logs that
+            are not fitted too.
         starts: more searches, from starts drawn between the bounds.
         seed: of the draw.
         outputs: columns to compare; all that are measured by default.
@@ -59,6 +60,7 @@ def fit(
 
     model, dataset, outputs = model_given(model, "fit"), dataset_of(data), names_of(outputs, "outputs")
     dataset = _only(dataset, outputs) if outputs else dataset
+    initial = model.first_sample(initial)
     problem = _problem(model, dataset, initial)
     drawn = whole_number_of(seed, "seed")
     if drawn < 0:

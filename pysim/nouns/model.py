@@ -248,6 +248,8 @@ class Model(Shown):
     def set(self, **values: float) -> Model:
         """Give parameters a value, in their units; a fit leaves them there unless they are named as free.
 
+        A state that is set is where runs begin, those of logs too unless `initial` says otherwise.
+
         Raises:
             BadInput: no such parameter, or a value outside its bounds: those that `free` gave, else the model's.
         """
@@ -264,7 +266,9 @@ class Model(Shown):
                     argument=name,
                 )
         held = self.held | {name for name in values if name not in self.chosen}
-        return replace(self, values={**self.values, **{n: float(v) for n, v in values.items()}}, held=held)
+        begins = any(name in values for name in self.compiled.abilities.states)  # elsewhere than its fit had it
+        values = {**self.values, **{n: float(v) for n, v in values.items()}}
+        return replace(self, values=values, held=held, initial=None if begins else self.initial)
 
     def free(
         self, *names: str, prior: Mapping[str, tuple[float, float]] | None = None, **bounds: tuple[float, float]
@@ -369,6 +373,11 @@ class Model(Shown):
         own = {"bounds": self.bounds, "priors": self.priors}
         return {"free": free, **{k: {n: pair for n, pair in v.items() if n in free} for k, v in own.items()}}
 
+    def first_sample(self, initial: Initial) -> Initial:
+        """What is known of it in each log: as given; where nothing is, the model's own start once a state was set."""
+        is_set = any(name in self.values for name in self.compiled.abilities.states)
+        return {} if initial is None and is_set else initial
+
     def usual(self) -> dict[str, float]:
         """Where a fit begins with the effects that were added: at usual sizes, as off may be no start."""
         found = {}
@@ -422,7 +431,8 @@ class Model(Shown):
             if not (dt is None or dt > 0):
                 raise BadInput(f"simulate: there are no rows every {dt:g} s; give a time above zero", argument="dt")
             refuse_unknown(initial)
-            begun = None if inputs else self._begun(what, self.initial if initial is None else initial)
+            known = self.first_sample(self.initial if initial is None else initial)
+            begun = None if inputs else self._begun(what, known)
             if begun is not None:
                 assert isinstance(what.data, Record)
                 whole, first = begun
@@ -460,8 +470,8 @@ class Model(Shown):
         from pysim.identify.greybox import Simulation
         from pysim.identify.greybox.comparison import compared
 
-        dataset, states = self._holding(log), self.compiled.abilities.states
-        if dataset is None or initial == {} or any(name in states for name in self.values):
+        dataset = self._holding(log)
+        if dataset is None or initial == {}:
             return None
         problem, here = self._problem(dataset, initial), np.zeros(0)
         for one in problem.observations:
@@ -515,7 +525,7 @@ class Model(Shown):
 
         all_fit = replace(dataset, records=tuple(replace(record, use="fit") for record in dataset.records))
         return fit_problem(
-            self.compiled, [all_fit], values=self.values, nothing_free=True, initial=initial,
+            self.compiled, [all_fit], values=self.values, nothing_free=True, initial=self.first_sample(initial),
             reference_hz=reference_of(dataset.responses()),
         )  # fmt: skip
 

@@ -284,3 +284,19 @@ def test_the_run_of_a_log_that_no_fit_has_seen_begins_as_compare_begins_it(mass:
     assert plant.simulate(alone)["x"][0] == 0.0  # nothing says where it began
     assert plant.simulate(log, F=0.0)["x"][0] == 0.0
     assert plant.set(x=0.01).simulate(log)["x"][0] == 0.01
+
+
+def test_a_state_that_is_set_is_where_fit_comparison_and_the_run_of_a_log_begin(mass: Model) -> None:
+    """The mass of the first log was let go there. A word for the first sample wins."""
+    data, plant = let_go(), mass.set(m=1.0, d=0.4, k=16.0, x=0.05)
+    assert pysim.compare(plant, data).table["x noise"][0] == pytest.approx(1.0, abs=0.1)
+    for initial in (None, "rest", "estimate"):
+        shown, _ = plant.beside(data, initial)
+        run = plant.simulate(data.logs()[1], initial=initial)
+        assert run["x"] == pytest.approx(shown[1].simulated["x"], abs=2e-5)
+        assert run["x"][0] == pytest.approx({None: 0.05, "rest": 0.0, "estimate": -0.08}[initial], abs=0.005)
+    for initial in (None, "rest"):
+        found = pysim.fit(plant.free("d", "k"), data, initial=initial)
+        run = found.model.simulate(data.logs()[0])
+        assert run["x"] == pytest.approx(found.found.records[0].simulated["x"], abs=2e-5)
+        assert found.model.set(x=0.01).simulate(data.logs()[0])["x"][0] == 0.01
