@@ -15,7 +15,7 @@ from pysim.nouns.model import Model, model_given
 from pysim.nouns.run import Run
 from pysim.nouns.table import Shown, Table
 from pysim.present.progress import Progress, showing
-from pysim.types import BadInput, Dataset, FitOutcome, MeasuredRecord, ProgressEvent, Record
+from pysim.types import BadInput, Dataset, FitOutcome, ProgressEvent
 from pysim.types import Fit as Found
 from pysim.types.kinds import names_of, path_of, whole_number_of
 
@@ -55,11 +55,11 @@ def fit(
     Raises:
         BadInput: nothing free, what does not fit together, or a model that cannot be simulated.
     """
-    from pysim.identify.greybox import Effort
+    from pysim.identify.greybox import Effort, of_outputs
     from pysim.workflow import fitted
 
     model, dataset, outputs = model_given(model, "fit"), dataset_of(data), names_of(outputs, "outputs")
-    dataset = _only(dataset, outputs) if outputs else dataset
+    dataset = of_outputs(dataset, outputs)
     initial = model.first_sample(initial)
     problem = _problem(model, dataset, initial)
     drawn = whole_number_of(seed, "seed")
@@ -75,28 +75,6 @@ def fit(
 
         effort = Effort(whole_number_of(starts, "starts"), drawn, log=log, resume=log is not None)
         return Fit(fitted(problem, effort=effort, progress=heard), model, dataset, problem, initial, outputs)
-
-
-def _only(dataset: Dataset, outputs: tuple[str, ...]) -> Dataset:
-    """The measurements without other outputs than these."""
-    from pysim.identify.greybox.time_log import kept_columns
-
-    measured = [signal.name for signal in dataset.signals if signal.role == "output"]
-    for name in outputs:
-        if name not in measured:
-            raise BadInput(
-                f"fit: data set {dataset.name!r} measures no output {name!r}; it has {', '.join(measured)}",
-                argument="outputs",
-            )
-    signals = tuple(signal for signal in dataset.signals if signal.role == "input" or signal.name in outputs)
-    names, records = {signal.name for signal in signals}, list[MeasuredRecord]()
-    for record in dataset.records:
-        if isinstance(record.data, Record):
-            kept = tuple(name for name in record.data.names if name in names)
-            records.append(replace(record, data=kept_columns(record.data, kept)))
-        elif record.data.test.output in names:
-            records.append(record)
-    return replace(dataset, signals=signals, records=tuple(records))
 
 
 def _problem(model: Model, dataset: Dataset, initial: Initial) -> Problem:

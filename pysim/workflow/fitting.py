@@ -12,7 +12,6 @@ from pysim.identify.adequacy import shortcomings
 from pysim.identify.greybox import (
     NOISE,
     Effort,
-    Measurements,
     Objective,
     Parameter,
     Problem,
@@ -45,7 +44,6 @@ def fit_problem(
     fixed: Mapping[str, float] | None = None,
     starts: Mapping[str, float] | None = None,
     ties: Sequence[Tie] = (),
-    outputs: Sequence[str] = (),
     reference_hz: float | None = None,
     initial: Initial = None,
     nothing_free: bool = False,
@@ -60,7 +58,6 @@ def fit_problem(
         fixed: of parameters that are not fitted; wins over `values`.
         starts: of parameters that are fitted; wins over `values`.
         ties: parameters that follow fitted ones.
-        outputs: to compare; all that are measured by default.
         reference_hz: whose gain counts as 0 dB in responses; None for absolute gains.
         initial: of the model at each log's first sample: "rest", as its equations come to it at the first input;
             "estimate", from each log; "model", as its start values say; state -> value; None as the data say, else
@@ -85,7 +82,7 @@ def fit_problem(
             raise BadInput(f"{name} has a start or bounds but is not free; set it only, or add it to --free (free it)")
     if not nothing_free:
         _refuse_still(datasets)
-    data = [Measurements(in_model_units(one, model), outputs=tuple(outputs) or None) for one in datasets]
+    data = [in_model_units(one, model) for one in datasets]
     known, ends = priors or {}, {name: bounds.get(name, (None, None)) for name in names}
     parameters = [Parameter(n, begin.get(n), low, high, prior=known.get(n)) for n, (low, high) in ends.items()]
     return problem(model, data, parameters, fixed=rest, ties=ties, treatment=treatment)

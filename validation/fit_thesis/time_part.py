@@ -15,12 +15,12 @@ from pysim.identify.greybox import (
     COMBINED,
     FREQUENCY,
     InteriorPoint,
-    Measurements,
     Objective,
     Parameter,
     Problem,
     fit,
     fit_at,
+    of_outputs,
     problem,
 )
 from pysim.io import read_dataset
@@ -119,7 +119,7 @@ def samples(every: int) -> int:
 
 def _task(label: str, every: int, start: Mapping[str, float]) -> Problem:
     free = [name for name in NAMES if label == "free" or name not in LOCKED]
-    data = [Measurements(responses()), Measurements(waves(every), outputs=(VALVE,))]
+    data = [responses(), of_outputs(waves(every), (VALVE,))]
     return problem(pump_model(label), data, [Parameter(name, start=start.get(name)) for name in free])
 
 

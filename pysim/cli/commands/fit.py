@@ -34,13 +34,14 @@ if TYPE_CHECKING:
 def run(given: Given) -> Fitted:
     """The estimates, with exact intervals where these were asked for."""
     from pysim.identify.greybox import OBJECTIVES, Effort, GaussNewton, InteriorPoint, Processes, Simulation, profile
+    from pysim.identify.greybox.problem import of_outputs
     from pysim.io import in_model_units
     from pysim.present.fit import Fitted
     from pysim.present.progress import Searching, Working, announce_compilation
     from pysim.workflow import fitted
 
     model = given.model
-    datasets = tuple(in_model_units(one, model) for one in given.dataset)
+    datasets = tuple(in_model_units(of_outputs(one, given.signal), model) for one in given.dataset)
     problem = _problem(given, model, datasets)
     _refuse_unprofiled(problem, given.profile)
     simulation = Simulation(workers=Processes()) if given.isolate else Simulation()
@@ -99,7 +100,6 @@ def _problem(given: Given, model: Model, datasets: Sequence[Dataset]) -> Problem
         fixed=assigned(given.set, "--set", unit),
         starts=assigned(given.start, "--start", unit),
         ties=[Tie(*_tie(word)) for word in given.tie],
-        outputs=given.signal,
         reference_hz=reference_of((r for one in datasets for r in one.responses()), given.reference_hz),
     )
 

@@ -7,7 +7,7 @@ from pysim.identify.greybox.nuisance import Nuisance, NuisanceKind
 from pysim.identify.greybox.objective import COMBINED, FREQUENCY, NOISE, OBJECTIVES, TIME, Objective
 from pysim.identify.greybox.observation import Measure, Observation
 from pysim.identify.greybox.parameters import Parameter, Tie
-from pysim.identify.greybox.problem import Problem, problem
+from pysim.identify.greybox.problem import Problem, of_outputs, problem
 from pysim.identify.greybox.profile import Profile, profile
 from pysim.identify.greybox.residuals import Point, WeightedResiduals
 from pysim.identify.greybox.runs import Simulation
@@ -52,6 +52,7 @@ __all__ = [
     "fit_at",
     "fit_warnings",
     "helper_processes",
+    "of_outputs",
     "problem",
     "profile",
     "step_warnings",

@@ -20,7 +20,7 @@ from pysim.identify.greybox.response_table import UNSPECIFIED_DB, UNSPECIFIED_DE
 from pysim.identify.greybox.runs import Simulation
 from pysim.identify.greybox.settings import NoiseSettings
 from pysim.identify.greybox.stepped_sines import stepped_sines, swing, unsettled
-from pysim.identify.greybox.time_log import time_logs
+from pysim.identify.greybox.time_log import kept_columns, time_logs
 from pysim.identify.greybox.treatment import Measurements, Treatment
 from pysim.simulate import one_blas_thread
 from pysim.types import BadInput, Dataset, FrequencyResponse, MeasuredRecord, Model, Note, NoteCode, Record
@@ -160,6 +160,32 @@ def problem(
     return Problem(model, space, tuple(observations), floors, tuple(dict.fromkeys(notes)), treatment.noise, specified)
 
 
+def of_outputs(dataset: Dataset, outputs: Sequence[str]) -> Dataset:
+    """The measurements without other outputs than these; as they are where none is named.
+
+    Raises:
+        BadInput: one that is not measured.
+    """
+    if not outputs:
+        return dataset
+    measured = [signal.name for signal in dataset.signals if signal.role == "output"]
+    for name in outputs:
+        if name not in measured:
+            raise BadInput(
+                f"data set {dataset.name!r} measures no output {name!r}; it has {', '.join(measured)}",
+                argument="outputs",
+            )
+    signals = tuple(signal for signal in dataset.signals if signal.role == "input" or signal.name in outputs)
+    names, records = {signal.name for signal in signals}, list[MeasuredRecord]()
+    for record in dataset.records:
+        if isinstance(record.data, Record):
+            kept = tuple(name for name in record.data.names if name in names)
+            records.append(replace(record, data=kept_columns(record.data, kept)))
+        elif record.data.test.output in names:
+            records.append(record)
+    return replace(dataset, signals=signals, records=tuple(records))
+
+
 def _set_beside(model: Model, values: Mapping[str, float]) -> dict[str, float]:
     """Those that are not the model's own, but for states, up to the rounding of a logarithmic scale."""
     own = {name: model[name].start for name in values if name not in model.abilities.states}
@@ -175,13 +201,9 @@ def _context(
 ) -> tuple[Context, list[Note]]:
     """The context of a data set, and notes on noise that was estimated."""
     dataset = data.dataset
-    measured = tuple(signal.name for signal in dataset.signals if signal.role == "output")
-    for name in data.outputs or ():
-        if name not in measured:
-            raise BadInput(f"data set {dataset.name!r} measures no output {name!r}; it has {', '.join(measured)}")
+    outputs = tuple(signal.name for signal in dataset.signals if signal.role == "output")
     for name in data.noise:
         dataset.signal(name)
-    outputs = measured if data.outputs is None else tuple(data.outputs)
     sizes: dict[str, float] = {}
     notes: list[Note] = []
     for name in outputs:

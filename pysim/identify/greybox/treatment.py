@@ -19,13 +19,11 @@ class Measurements:
     Args:
         dataset: its records of use "validate" are compared, never fitted.
         overrides: parameters that differ from the nominal ones in these tests, in the variables' units.
-        outputs: columns to compare; every measured output if None.
         noise: column -> standard deviation in its unit, which replaces what the data set specifies.
     """
 
     dataset: Dataset
     overrides: Mapping[str, float] = field(default_factory=dict)
-    outputs: tuple[str, ...] | None = None
     noise: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:

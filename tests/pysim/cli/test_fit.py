@@ -14,7 +14,8 @@ from pysim.identify.greybox import Profile, Tried
 from pysim.io import read_model, write_dataset
 from pysim.present.progress import Searching
 from pysim.present.report import MARKER
-from tests.pysim.cli.ran import Ran, refused
+from pysim.types import FrequencyResponse
+from tests.pysim.cli.ran import Ran, ran, refused
 from tests.pysim.identify.greybox import measurements as m
 
 
@@ -80,6 +81,23 @@ def test_a_table_without_the_thesis_reference_is_fitted_as_it_is(
     found = json.loads((tmp_path / "fit.json").read_text())["values"]
     assert (found["K"], found["T"]) == pytest.approx((2.0, 0.7), rel=1e-3)
     refused([*words, "--reference-hz", "0.1"], capsys, "0.1 Hz")
+
+
+def test_a_table_of_an_output_that_is_left_out_says_nothing(
+    lag: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    """Without it every table has 0.1 Hz, to which gains are relative then: the gain of 2 is not the model's 1."""
+    one, other = (m.table(2.0, T, np.array(at)) for T, at in ((0.7, [0.1, 0.5, 1.0]), (0.3, [0.2, 0.5, 1.0])))
+    assert isinstance(other.data, FrequencyResponse)
+    of_z = replace(other, source="z.csv", data=replace(other.data, test=replace(other.data.test, output="z")))
+    data = m.dataset([one, of_z])
+    z = replace(data.signal("y"), name="z", quantity="z", variable="z")
+    write_dataset(tmp_path / "tables", replace(data, signals=(*data.signals, z)))
+    words = ["fit", str(tmp_path / "tables"), "--model", str(lag / "Lag.fmu"), "--free", "T", "--set", "K=1"]
+    found = ran([*words, "--signal", "y"], tmp_path)
+    assert found.answer["values"]["T"] == pytest.approx(0.7, rel=1e-3)
+    assert [one["output"] for one in found.answer["responses"]] == ["y"]
+    refused([*words, "--signal", "x"], capsys, "measures no output 'x'", "y, z")
 
 
 def test_so_is_one_that_is_refitted_and_compared(lag: Path, tmp_path: Path) -> None:
