@@ -101,7 +101,7 @@ def _given(
         raise BadInput(
             "a model alone has no measurements; write diagnose(model, data), or diagnose(fit)", argument="data"
         )
-    return subject, dataset_of(data), initial, {}
+    return subject, dataset_of(data), subject.first_sample(initial), {}
 
 
 def _parts(

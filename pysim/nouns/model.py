@@ -346,6 +346,8 @@ class Model(Shown):
             BadInput: the model's class is not at hand or cannot be what its FMU is, no slot takes the effect, or it is
                 there already.
         """
+        if not effects:
+            return self
         from pysim.workflow.built_in import built_in
 
         wider, found = self._taking(effects)

@@ -71,7 +71,8 @@ def test_what_cannot_be_asked_is_refused(mass: Model, data: Dataset) -> None:
         pysim.diagnose(mass, data, effects=["toy.fricton"])
 
 
-def test_a_log_may_begin_where_the_user_says(mass: Model, data: Dataset, tmp_path: Path) -> None:
+@pytest.mark.parametrize("is_set", [False, True])
+def test_a_log_may_begin_where_the_user_says(mass: Model, data: Dataset, tmp_path: Path, is_set: bool) -> None:
     """A mass with friction that is let go 0.1 m away from rest, as fit and diagnosis are told."""
     plant = mass.with_effects("toy.friction").set(**TRUE, **{"force.F_c": FRICTION, "x": 0.1})
     rng, records = np.random.default_rng(5), []
@@ -80,7 +81,8 @@ def test_a_log_may_begin_where_the_user_says(mass: Model, data: Dataset, tmp_pat
         x = plant.simulate(one)["x"] + 1e-3 * rng.standard_normal(one.data.time.size)
         records.append(replace(one, data=replace(one.data, values=np.column_stack([one.data["F"], x]))))
     let_go = replace(data, records=tuple(records))
-    begun = pysim.diagnose(mass, let_go, effects=["toy.friction", "toy.bias"], initial={"x": 0.1})
+    model, initial = (mass.set(x=0.1), None) if is_set else (mass, {"x": 0.1})
+    begun = pysim.diagnose(model, let_go, effects=["toy.friction", "toy.bias"], initial=initial)
     assert begun.verdict == "toy.friction"
     assert begun.report(tmp_path)["fmu"].is_file()  # where a state began is no parameter of the class
     assert begun.steps["fitted"][-1] == pytest.approx(1.0, abs=0.1)
