@@ -78,8 +78,8 @@ def _identity(one: Element) -> tuple[object, ...]:
 def _take(old: Element, new: Element) -> None:
     """Be the old element for the browser: under its number, with what it hears."""
     known, client = json.dumps(old._to_dict()), new.client
-    if "stamp" in old._props:  # the browser shows what its user has given since
-        new._props["stamp"] = old._props["stamp"]
+    if "heard" in old._props:  # the browser shows what its user has given since
+        new._props["heard"] = old._props["heard"]
     _follow(old.default_slot.children, new)
     client.elements.pop(new.id)
     client.outbox.updates.pop(new.id, None)

@@ -156,19 +156,19 @@ class Drawing(Element, component=str(_STATIC / "drawing.js")):
 
 
 class _Field(Element):
-    """What a user chooses or types there is shown, until what is built anew says otherwise."""
+    """What a user chooses or types there is shown, until what is built anew, once that was heard, says otherwise."""
 
     follows = True
 
     def _begin(self, value: object, put: Callable[[Any], Any]) -> None:
         def told(given: Any) -> None:
             self._props["value"] = given
-            self._props["stamp"] += 1
+            self._props["heard"] += 1
             self.update()
             news.emit()
             put(given)
 
-        self._props["value"], self._props["stamp"] = value, 0
+        self._props["value"], self._props["heard"] = value, 0
         self.on("put", lambda event: told(event.args))
 
 

@@ -1,4 +1,5 @@
-// A field, or a box to tick. What is typed is handed over when it is left, and stays until then, whatever else is drawn anew.
+// A field, or a box to tick. What is typed is handed over when it is left, and stays until that was heard, whatever else is
+// drawn anew: what was sent before says what stood there before.
 const holds = (field) => (field.type === "checkbox" ? "checked" : "value");
 
 export default {
@@ -9,24 +10,32 @@ export default {
     each: Boolean,
     needed: Boolean,
     stamp: Number,
+    heard: { type: Number, default: Infinity }, // how many of those that were handed over
   },
   emits: ["put"],
+  data() {
+    return { given: this.heard };
+  },
   mounted() {
     this.show();
   },
-  watch: { value: "show", stamp: "show" },
+  watch: { value: "show", stamp: "show", heard: "show" },
   methods: {
     show() {
-      if (!this.typed) this.$el[holds(this.$el)] = this.value ?? "";
+      if (!this.typed && this.given <= this.heard) this.$el[holds(this.$el)] = this.value ?? "";
     },
     type() {
       this.typed = true;
-      if (this.each) this.$emit("put", this.$el.value);
+      if (this.each) this.put();
     },
     give() {
       this.typed = false;
       if (this.needed && this.$el.value === "") this.show();
-      else this.$emit("put", this.$el[holds(this.$el)]);
+      else this.put();
+    },
+    put() {
+      this.given += 1;
+      this.$emit("put", this.$el[holds(this.$el)]);
     },
     leave() {
       if (!this.typed) return; // it was given

@@ -28,6 +28,19 @@ document.addEventListener("keydown", (event) => {
   emitEvent(name);
 });
 
+// A press counts where a button or a box stood when the mouse went down, though the page has moved it before the mouse went up.
+let pressed = null;
+document.addEventListener("pointerdown", (event) => {
+  const target = event.button === 0 && event.target.closest("button, a, [type=checkbox]");
+  pressed = target && { target, place: target.getBoundingClientRect() };
+});
+document.addEventListener("pointerup", (event) => {
+  if (!pressed || pressed.target.contains(event.target)) return;
+  const { left, right, top, bottom } = pressed.place;
+  const [x, y] = [event.clientX, event.clientY];
+  if (left <= x && x <= right && top <= y && y <= bottom) pressed.target.click();
+});
+
 // Paper is light.
 let dark = false;
 addEventListener("beforeprint", () => (dark = document.body.classList.contains("body--dark")) && document.body.classList.remove("body--dark"));

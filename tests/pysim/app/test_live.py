@@ -11,6 +11,14 @@ from pysim.app.project import Project, Settings
 from tests.pysim.app.browser import Show, Shown, Tab
 from tests.pysim.app.made import description, rubbing
 
+# Answers of the server wait until they are let in, one by one; it says how many still wait.
+HOLD = """() => {
+  const heard = window.socket.onevent.bind(window.socket), held = [];
+  window.socket.onevent = (packet) => held.push(packet);
+  window.waiting = () => JSON.stringify(held);
+  window.letIn = () => (held.length ? heard(held.shift()) : null, held.length);
+}"""
+
 
 @pytest.fixture
 def project(tmp_path: Path) -> Project:
@@ -65,6 +73,55 @@ def test_no_press_is_lost(shown: Shown, show: Show, project: Project) -> None:
     for k in range(3, -1, -1):
         tab.page.get_by_label("remove step 1").click(delay=200)
         tab.until(lambda k=k: len(steps(project)) == k)
+    assert tab.errors == []
+
+
+def test_late_answers_show_nothing_that_stood_there_before(shown: Shown, show: Show, project: Project) -> None:
+    tab = Tab(shown, show(project.folder, idle=True))
+    field, unit = tab.page.get_by_label("noise of x"), tab.page.get_by_label("unit of x")
+    field.wait_for()
+    tab.page.evaluate(HOLD)
+    for words, noise in (("mm", 0.125), ("m", 0.375)):
+        unit.select_option(words)
+        field.fill(str(noise))
+        field.press("Tab")
+        tab.until(
+            lambda words=words, noise=noise: (signal(project)["unit"], signal(project).get("noise")) == (words, noise)
+        )
+        tab.until(lambda noise=noise: str(noise) in tab.page.evaluate("window.waiting()"))
+    left = 1
+    while left:
+        left = tab.page.evaluate("window.letIn()")
+        assert (unit.input_value(), field.input_value()) == ("m", "0.375")
+    assert tab.errors == []
+
+
+def test_a_button_that_moves_below_the_mouse_is_pressed(shown: Shown, show: Show, project: Project) -> None:
+    tab = Tab(shown, show(project.folder, idle=True))
+    tab.go("Prepare")
+    add, logs = tab.page.get_by_role("button", name="Add", exact=True), tab.page.get_by_label("logs of the step")
+    move = "(by) => { document.querySelector('.page').style.transform = `translateY(${by}px)`; }"
+
+    def press(kind: str, *, page: float = 0.0, mouse: float = 0.0) -> None:
+        """Both move by so many px while the mouse is down."""
+        tab.page.get_by_label("kind of step").select_option(kind)
+        tab.page.locator(".chart[data-ready=yes]").wait_for()  # until then the page moves by itself
+        tab.until(lambda: logs.count() == (kind == "turn the sign"))
+        tab.page.evaluate(move, 0)
+        add.hover()
+        place = add.bounding_box()
+        tab.page.mouse.down()
+        tab.page.evaluate(move, page)
+        tab.page.mouse.move(place["x"] + place["width"] / 2, place["y"] + place["height"] / 2 + mouse)
+        tab.page.mouse.up()
+
+    press("take off the mean", page=-100)
+    tab.until(lambda: len(steps(project)) == 1)
+    tab.page.locator(".rail").get_by_text("1 step", exact=True).wait_for()
+    press("turn the sign", mouse=-100)  # who moves away has thought otherwise
+    press("take off the mean")
+    tab.until(lambda: len(steps(project)) == 2)
+    assert [step["step"] for step in steps(project)] == ["detrend", "detrend"]
     assert tab.errors == []
 
 
