@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -46,9 +46,7 @@ def seen_noise(values: Array) -> float:
     return (middle or float(np.sqrt(np.mean(differences**2)))) / math.sqrt(_GAIN)
 
 
-def signal_noise(
-    signal: MeasuredSignal, logs: Sequence[Array], given: Mapping[str, float], settings: NoiseSettings
-) -> tuple[float, bool]:
+def signal_noise(signal: MeasuredSignal, logs: Sequence[Array], settings: NoiseSettings) -> tuple[float, bool]:
     """Standard deviation of one signal's noise, independent of any model, and whether it was estimated from the logs.
 
     The estimate is the white part of the logs: in some frequency band the plant's own signal is negligible. If all logs
@@ -56,11 +54,10 @@ def signal_noise(
 
     Args:
         logs: columns of the signal, (n_t,) each; not-a-number where nothing was measured.
-        given: name of a signal -> noise, which replaces what the data set specifies.
     Raises:
         BadInput: the noise is not specified and cannot be estimated.
     """
-    size = given.get(signal.name) or specified_noise(signal)
+    size = specified_noise(signal)
     if size is not None:
         return size, False
     white = white_floor(logs, settings)
@@ -76,20 +73,14 @@ def signal_noise(
                 f"signal {signal.name!r}: the logs show no noise, and none is specified; give noise = a number"
             )
         white = float(np.median(seen))
-    return max(white, noise_floor(signal, logs, given, settings).sd), True
+    return max(white, noise_floor(signal, logs, settings).sd), True
 
 
-def noise_floor(
-    signal: MeasuredSignal,
-    logs: Sequence[Array],
-    given: Mapping[str, float],
-    settings: NoiseSettings,
-) -> NoiseFloor:
+def noise_floor(signal: MeasuredSignal, logs: Sequence[Array], settings: NoiseSettings) -> NoiseFloor:
     """Smallest level that a signal's residual is divided by; only a floor, so that a wrong noise does not set weights.
 
     Args:
         logs: columns of the signal, (n_t,) each; not-a-number where nothing was measured.
-        given: name of a signal -> noise, which replaces what the data set specifies.
     """
     logs = [log[np.isfinite(log)] for log in logs]
     spread = max((float(np.ptp(log)) for log in logs), default=0.0)
@@ -97,7 +88,7 @@ def noise_floor(
     step = _step(max(logs, key=len)) if logs else 0.0  # a short log may hold none of the smallest steps
     least = settings.least * (spread or size or 1.0)
     resolution = max((signal.resolution or 0.0) / math.sqrt(12), step / math.sqrt(12), least)
-    specified = given.get(signal.name) or specified_noise(signal) or 0.0
+    specified = specified_noise(signal) or 0.0
     if specified >= resolution:
         return NoiseFloor(specified, FloorSource.SPECIFIED)
     return NoiseFloor(resolution, FloorSource.SPECIFIED if specified else FloorSource.RESOLUTION)

@@ -148,7 +148,7 @@ def problem(
         context, said = _context(model, one, treatment, _started(model, space), at)
         with one_blas_thread():
             found, more, stated = _observations(context)
-        own = _floors(context, one.noise)
+        own = _floors(context)
         observations, notes = [*observations, *found], [*notes, *said, *more]
         specified = specified and stated and all(f.source is FloorSource.SPECIFIED for f in own.values())
         floors |= own
@@ -202,13 +202,11 @@ def _context(
     """The context of a data set, and notes on noise that was estimated."""
     dataset = data.dataset
     outputs = tuple(signal.name for signal in dataset.signals if signal.role == "output")
-    for name in data.noise:
-        dataset.signal(name)
     sizes: dict[str, float] = {}
     notes: list[Note] = []
     for name in outputs:
         if logs := _columns(dataset, name):
-            sizes[name], is_estimated = signal_noise(dataset.signal(name), logs, data.noise, treatment.noise)
+            sizes[name], is_estimated = signal_noise(dataset.signal(name), logs, treatment.noise)
             if is_estimated:
                 names = {"dataset": dataset.name, "signal": name, "unit": dataset.signal(name).unit}
                 notes.append(Note(NoteCode.NOISE_ESTIMATED, {"value": sizes[name], **names}))
@@ -221,10 +219,10 @@ def _columns(dataset: Dataset, name: str) -> list[Array]:
     return [column for column in found if np.isfinite(column).any()]
 
 
-def _floors(context: Context, given: Mapping[str, float]) -> dict[Channel, NoiseFloor]:
+def _floors(context: Context) -> dict[Channel, NoiseFloor]:
     dataset, settings = context.dataset, context.treatment.noise
     return {
-        (dataset.name, name): noise_floor(dataset.signal(name), _columns(dataset, name), given, settings)
+        (dataset.name, name): noise_floor(dataset.signal(name), _columns(dataset, name), settings)
         for name in context.noise
     }
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -100,14 +100,6 @@ class SteppedSines:
     def rest(self) -> Array:
         """Sum of squares of the samples less mean and harmonics, per signal."""
         return np.sum([log.measured.time.size * log.scatter**2 for log in self.logs], axis=0)
-
-    def without(self, sources: Collection[str]) -> SteppedSines:
-        """The stepped sines without the logs of these sources; gains are absolute if the reference is one of them."""
-        kept = [i for i, log in enumerate(self.logs) if log.source not in sources]
-        logs, runs = tuple(self.logs[i] for i in kept), tuple(self.runs[i] for i in kept)
-        return replace(
-            self, logs=logs, runs=runs, reference=kept.index(self.reference) if self.reference in kept else None
-        )
 
     def residual(self, answers: Sequence[Simulated], measure: Measure = Measure.SIGNAL) -> Array:
         """Differences of `SineLog.harmonics`; or of magnitudes and phases (thesis Eq. 2.11 to 2.13 and 2.25)."""

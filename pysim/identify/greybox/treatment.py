@@ -19,19 +19,13 @@ class Measurements:
     Args:
         dataset: its records of use "validate" are compared, never fitted.
         overrides: parameters that differ from the nominal ones in these tests, in the variables' units.
-        noise: column -> standard deviation in its unit, which replaces what the data set specifies.
     """
 
     dataset: Dataset
     overrides: Mapping[str, float] = field(default_factory=dict)
-    noise: Mapping[str, float] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
-        for name in ("overrides", "noise"):
-            object.__setattr__(self, name, FrozenMapping(getattr(self, name)))
-        for name, value in self.noise.items():
-            if not value > 0:
-                raise BadInput(f"measurements: the noise of {name} is {value}; give a positive number")
+        object.__setattr__(self, "overrides", FrozenMapping(self.overrides))
 
 
 @dataclass(frozen=True)
