@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import math
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -263,7 +263,7 @@ class Fit(Shown):
         """A fit that was saved. The model is simulated once more at what was found, which gives all the rest.
 
         Raises:
-            BadInput: no fit was saved there, or a library of its model is not there any more.
+            BadInput: no fit was saved there, it is damaged, or a library of its model is not there any more.
         """
         from pysim.identify.greybox import Simulation, fit_at
         from pysim.io import read_model
@@ -271,14 +271,17 @@ class Fit(Shown):
         place = Path(folder)
         if not (place / _KEPT).is_file():
             raise BadInput(f"{place} holds no {_KEPT}; name the folder that fit.save(...) wrote")
-        asked = json.loads((place / _KEPT).read_text(encoding="utf-8"))
+        asked = _asked(place / _KEPT)
         plain = Model(read_model(place / _FMU), libraries_of(asked["libraries"]))
         grown = plain.with_effects(*asked["effects"]) if asked["effects"] else plain
         begun = replace(grown, **{name: asked[name] for name in _SAID})
-        dataset, initial, outputs = dataset_of(place / _DATA), asked["initial"], tuple(asked["outputs"])
+        dataset, initial, outputs = dataset_of(place / _DATA), asked["initial"], asked["outputs"]
         problem = _problem(begun, dataset, initial)
+        for name in problem.space.keys:
+            if name not in asked["found"]:
+                raise _damaged(place / _KEPT, f"found has no {name}")
         found = fit_at(problem, asked["found"], Simulation().as_fine_as(asked["tolerance"]))
-        found = replace(found, outcome=FitOutcome(asked["outcome"]), **asked["search"])
+        found = replace(found, outcome=asked["outcome"], **asked["search"])
         return cls(found, begun, dataset, problem, initial, outputs)
 
     def report(self, folder: Path | str) -> dict[str, Path]:
@@ -333,3 +336,54 @@ class Fit(Shown):
             for i in range(len(names)) for j in range(i) if abs(matrix[i, j]) > _CLOSE
         ]  # fmt: skip
         return [*lines, *([f"correlations above {_CLOSE}: {', '.join(pairs[:4])}"] if pairs else [])]
+
+
+def _text(given: Any) -> str:
+    if not isinstance(given, str):
+        raise TypeError
+    return given
+
+
+def _texts(given: Any) -> tuple[str, ...]:
+    if not isinstance(given, list):
+        raise TypeError
+    return tuple(map(_text, given))
+
+
+def _numbers(given: Any) -> dict[str, float]:
+    return {name: float(one) for name, one in given.items()}
+
+
+def _pairs(given: Any) -> dict[str, tuple[float, float]]:
+    return {name: (float(low), float(high)) for name, (low, high) in given.items()}
+
+
+_SAVED: Mapping[str, Callable[[Any], Any]] = {  # what a saved fit holds, each taken as its kind
+    "values": _numbers, "chosen": _texts, "bounds": _pairs, "priors": _pairs, "held": _texts, "label": _text,
+    "libraries": _texts, "effects": _texts, "outputs": _texts, "found": _numbers, "tolerance": float,
+    "initial": lambda one: one if one is None or isinstance(one, str) else _numbers(one), "outcome": FitOutcome,
+    "search": lambda one: {name: kind(one[name]) for name, kind in _SEARCH.items()},
+}  # fmt: skip
+_SEARCH: Mapping[str, Callable[[Any], Any]] = {"message": _text, "iterations": int, "start_cost": float}
+
+
+def _asked(file: Path) -> dict[str, Any]:
+    """What stands in the file of a saved fit.
+
+    Raises:
+        BadInput: it cannot be read, or is damaged.
+    """
+    from pysim.io import read_text
+
+    text, asked, key = read_text(file, "a saved fit"), dict[str, Any](), ""
+    try:
+        said = json.loads(text)
+        for key, kind in _SAVED.items():
+            asked[key] = kind(said[key])
+    except (AttributeError, KeyError, TypeError, ValueError, RecursionError) as error:
+        raise _damaged(file, f"{key} is missing or wrong" if key else str(error)) from error
+    return asked
+
+
+def _damaged(file: Path, why: str) -> BadInput:
+    return BadInput(f"{file} is damaged ({why}); fit again, and save that in a new folder")

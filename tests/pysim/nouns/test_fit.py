@@ -1,5 +1,6 @@
 """A fit: its numbers, and when it warns."""
 
+import json
 from dataclasses import replace
 from html import unescape
 from pathlib import Path
@@ -223,6 +224,26 @@ def test_a_fit_that_was_saved_is_the_same_again(mass: Model, tmp_path: Path) -> 
         assert before == {path: path.read_bytes() for path in (tmp_path / there).rglob("*") if path.is_file()}
     with pytest.raises(BadInput, match=r"fit\.save"):
         Fit.load(tmp_path)
+
+
+def test_a_saved_fit_that_is_damaged_is_to_be_made_again(fitted: Fit, tmp_path: Path) -> None:
+    file = fitted.save(tmp_path / "kept")
+    whole = file.read_text(encoding="utf-8")
+    said = json.loads(whole)
+    texts = ["", whole[:100], whole[:-2], "[]", "3", "[" * 100_000]
+    for key in said:
+        less = {name: one for name, one in said.items() if name != key}
+        wrong = [[[]], {"m": "much"}, "tolerance" if key == "tolerance" else 3]
+        texts += map(json.dumps, [less, *({**said, key: one} for one in wrong)])
+    texts.append(json.dumps({**said, "found": {name: one for name, one in said["found"].items() if name != "m"}}))
+    for text in texts:
+        file.write_text(text, encoding="utf-8")
+        with pytest.raises(BadInput) as refused:
+            Fit.load(file.parent)
+        assert str(file) in str(refused.value)
+        assert "fit again" in refused.value.cure
+    file.write_text(whole, encoding="utf-8")
+    assert Fit.load(file.parent).values == pytest.approx(fitted.values)
 
 
 def test_progress_goes_to_who_asked_for_it(mass: Model, caplog: pytest.LogCaptureFixture) -> None:
