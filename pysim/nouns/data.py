@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path, PurePosixPath
@@ -13,6 +14,7 @@ import numpy as np
 from pysim.identify.data_check import DataCheck, check_dataset, with_one_cause
 from pysim.io.counted import counted
 from pysim.io.dataset import Described, read_described
+from pysim.io.file_names import same_file
 from pysim.io.load import is_frame, load_logs
 from pysim.io.load.load import Names
 from pysim.io.load.table import Doubt
@@ -278,7 +280,7 @@ class Data(Shown):
         """Write the raw logs as text and a dataset.toml with the steps, which every reader then does again.
 
         Args:
-            folder: a new or empty one.
+            folder: a new or empty one. In it, run.dat becomes run.txt; beside run.asc, dat/run.txt and asc/run.txt.
         Returns:
             the path of dataset.toml.
         Raises:
@@ -373,10 +375,18 @@ def load(
 
 
 def as_text(dataset: Dataset) -> Dataset:
-    """The same with names for files of text."""
-    names = [PurePosixPath(record.source) for record in dataset.records]
-    texts = [name if name.suffix.lower() in (".txt", ".csv") else name.with_suffix(".txt") for name in names]
-    records = (replace(r, source=text.as_posix()) for r, text in zip(dataset.records, texts, strict=True))
+    """The same with names for files of text; those that would have one name stand in folders, as dat/run.txt does."""
+    names = [PurePosixPath(source) for source in dict.fromkeys(record.source for record in dataset.records)]
+    texts = {name: name if name.suffix.lower() in (".txt", ".csv") else name.with_suffix(".txt") for name in names}
+    count = Counter(same_file(text.as_posix()) for text in texts.values())
+    taken = {*count}
+    for name, text in texts.items():
+        if text != name and count[same_file(text.as_posix())] > 1:
+            while same_file(text.as_posix()) in taken:
+                text = text.parent / (name.suffix[1:] or "log") / text.name
+            texts[name] = text
+            taken.add(same_file(text.as_posix()))
+    records = (replace(record, source=texts[PurePosixPath(record.source)].as_posix()) for record in dataset.records)
     return replace(dataset, records=tuple(records))
 
 

@@ -150,7 +150,7 @@ def renamed_logs(step: Step, called: Mapping[str, str]) -> Step:
     """The step for logs whose files have other names.
 
     Args:
-        called: file -> its other name; a part of a log takes the suffix of that.
+        called: file -> its other name; a part of a log takes the folder and the suffix of that.
     """
     changed: dict[str, Any] = {}
     for field in ("log", "logs"):
@@ -166,4 +166,5 @@ def _renamed(name: str, called: Mapping[str, str]) -> str:
     whole = whole_log(name)
     if name in called or whole not in called:
         return called.get(name, name)
-    return PurePosixPath(name).with_suffix(PurePosixPath(called[whole]).suffix).as_posix()
+    new = PurePosixPath(called[whole])
+    return new.with_name(PurePosixPath(name).stem + new.suffix).as_posix()

@@ -127,6 +127,26 @@ def test_steps_of_a_log_find_it_in_the_file_of_text_that_it_becomes(tmp_path: Pa
         data.fill_gaps(float("inf"))
 
 
+def test_logs_that_differ_in_their_ending_alone_are_saved_apart(tmp_path: Path) -> None:
+    """Also where the names that they would get are those of others, and by a step that names a part of one of them."""
+    for k, name in enumerate(("run.dat", "run.asc", "run.txt", "dat/run.txt", "asc/run.dat", "other.dat")):
+        path = tmp_path / "logs" / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text("\n".join(["t [s],F [N],x [m]", *(f"{t:.2f},{t * t:.6f},{k * t:.6f}" for t in TIME)]))
+    raw = load(tmp_path / "logs", inputs="F", outputs="x")
+    names = [record.source for record in raw.raw.records]
+    assert len({*names}) == 6
+    for k, data in enumerate((raw, raw.split(0.5).hold_out("run~fit.asc"))):
+        again = load(data.save(tmp_path / str(k)))
+        saved = dict(zip(names, (record.source for record in again.raw.records), strict=True))
+        assert len({*saved.values()}) == 6
+        assert (saved["run.txt"], saved["dat/run.txt"], saved["other.dat"]) == ("run.txt", "dat/run.txt", "other.txt")
+        assert [*saved.values()] == [one.source for one in load(data.save(tmp_path / f"{k} again")).raw.records]
+        assert [one.use for one in again.now.records] == [one.use for one in data.now.records]
+        for one, same in zip(data.now.logs(), again.now.logs(), strict=True):
+            np.testing.assert_allclose(log_of(again, same.source).values, log_of(data, one.source).values, rtol=1e-12)
+
+
 def test_an_empty_cell_is_saved_and_read(tmp_path: Path) -> None:
     logs().detrend("x").save(tmp_path / "saved")
     again = read_dataset(tmp_path / "saved")
