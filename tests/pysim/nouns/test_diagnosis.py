@@ -8,7 +8,7 @@ import pytest
 
 import pysim
 from pysim.effects import read_catalogue
-from pysim.nouns.diagnosis import Diagnosis
+from pysim.nouns.diagnosis import Diagnosis, _given
 from pysim.nouns.fit import Fit
 from pysim.nouns.law import Law
 from pysim.nouns.model import Model, opened
@@ -71,8 +71,12 @@ def test_what_cannot_be_asked_is_refused(mass: Model, data: Dataset) -> None:
         pysim.diagnose(mass, data, effects=["toy.fricton"])
 
 
-@pytest.mark.parametrize("is_set", [False, True])
-def test_a_log_may_begin_where_the_user_says(mass: Model, data: Dataset, tmp_path: Path, is_set: bool) -> None:
+def test_a_diagnosis_begins_at_states_that_were_set_as_a_comparison_does(mass: Model, data: Dataset) -> None:
+    for initial, begins in ((None, {}), ("rest", "rest")):
+        assert _given(mass.set(x=0.1), data, initial)[2] == mass.set(x=0.1).first_sample(initial) == begins
+
+
+def test_a_log_may_begin_where_the_user_says(mass: Model, data: Dataset, tmp_path: Path) -> None:
     """A mass with friction that is let go 0.1 m away from rest, as fit and diagnosis are told."""
     plant = mass.with_effects("toy.friction").set(**TRUE, **{"force.F_c": FRICTION, "x": 0.1})
     rng, records = np.random.default_rng(5), []
@@ -81,8 +85,7 @@ def test_a_log_may_begin_where_the_user_says(mass: Model, data: Dataset, tmp_pat
         x = plant.simulate(one)["x"] + 1e-3 * rng.standard_normal(one.data.time.size)
         records.append(replace(one, data=replace(one.data, values=np.column_stack([one.data["F"], x]))))
     let_go = replace(data, records=tuple(records))
-    model, initial = (mass.set(x=0.1), None) if is_set else (mass, {"x": 0.1})
-    begun = pysim.diagnose(model, let_go, effects=["toy.friction", "toy.bias"], initial=initial)
+    begun = pysim.diagnose(mass, let_go, effects=["toy.friction", "toy.bias"], initial={"x": 0.1})
     assert begun.verdict == "toy.friction"
     assert begun.report(tmp_path)["fmu"].is_file()  # where a state began is no parameter of the class
     assert begun.steps["fitted"][-1] == pytest.approx(1.0, abs=0.1)

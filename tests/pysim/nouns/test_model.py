@@ -12,7 +12,7 @@ import pytest
 import pysim
 from pysim.identify.greybox.time_log import kept_columns
 from pysim.io import read_model
-from pysim.nouns.model import Model, opened
+from pysim.nouns.model import Model
 from pysim.types import BadInput, Dataset, MeasuredRecord, Record, SimulationError
 from tests.toy import library, measured
 
@@ -189,7 +189,7 @@ def test_a_run_without_a_log_begins_at_the_states_that_are_given(mass: Model) ->
 
 
 def test_an_fmu_without_its_class_may_be_given_no_effect(mass: Model) -> None:
-    alone = opened(mass.compiled.path)
+    alone = pysim.model(mass.compiled.path)
     assert alone.with_effects() is alone
     with pytest.raises(BadInput, match="its class"):
         alone.with_effects("toy.friction")
