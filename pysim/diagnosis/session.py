@@ -9,9 +9,9 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from pysim.diagnosis.learn.laws import Terms
 from pysim.diagnosis.settings import Settings
 from pysim.effects import Slot
+from pysim.effects.learned import Terms
 from pysim.identify import THESIS_REFERENCE_HZ
 from pysim.identify.adequacy import shortcomings
 from pysim.identify.greybox import Measurements, Parameter, Problem, Rest, Threads, Treatment, problem

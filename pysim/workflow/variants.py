@@ -13,8 +13,8 @@ from pysim.types import BadInput
 from pysim.workflow.model import compiled
 
 if TYPE_CHECKING:
-    from pysim.diagnosis.learn.laws import Terms
     from pysim.effects import Slot
+    from pysim.effects.learned import Terms
     from pysim.types import Effect, Model
 
 
@@ -86,8 +86,8 @@ class Variants:
         Raises:
             BadInput: a class that does not compile with that term.
         """
-        from pysim.diagnosis.learn.laws import wrapped
         from pysim.effects import variant
+        from pysim.effects.learned import wrapped
 
         name = f"{self._own_name}Located"
         made = variant(self.class_name, effects, self.libraries, name=f"{name}Base") if effects else None

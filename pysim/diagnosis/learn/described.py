@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from pysim.diagnosis.learn.basis import Smoothness, bends, lines, missed
-from pysim.diagnosis.learn.laws import TIME, Law
 from pysim.diagnosis.learn.learn import Learning
 from pysim.effects.law_units import quotient
+from pysim.effects.learned import TIME, Law
 from pysim.types import Model
 from pysim.types.answer import LearnedLaw
 from pysim.types.factor import Form

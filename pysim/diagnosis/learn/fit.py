@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from pysim.diagnosis import refit
 from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.learn.basis import Smoothness, lines, missed
-from pysim.diagnosis.learn.laws import Law
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.learn.screening import LawModel, Ranked
 from pysim.diagnosis.refit import FinalFit, advance, exact
+from pysim.effects.learned import Law
 from pysim.identify.greybox import GaussNewton, Point, Simulation
 from pysim.identify.greybox.residuals import Carried, with_rows
 from pysim.types import Estimate

@@ -12,16 +12,16 @@ from pysim.diagnosis import rivals
 from pysim.diagnosis.floors import Floors
 from pysim.diagnosis.learn.basis import Array, closer
 from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, settled, started
-from pysim.diagnosis.learn.laws import TIME, Form, Law, Place, Terms, places
 from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, over_all, remembering, screen, seen
 from pysim.diagnosis.left import tone_rate
 from pysim.diagnosis.refit import FinalFit, Pairs, converged, left_out
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
-from pysim.effects.learned import curve_basis
+from pysim.effects.learned import TIME, Law, Place, Terms, curve_basis, places
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput
 from pysim.types.answer import GainTest, Verdict
+from pysim.types.factor import Form
 
 Say = Callable[[str], None]
 # A smaller model, a larger one and the test of its gain -> the test with vetoes by validation logs and left-out blocks.

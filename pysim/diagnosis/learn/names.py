@@ -16,11 +16,11 @@ from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.floors import Floors
 from pysim.diagnosis.learn.fit import LawFit, ended, settled, started
-from pysim.diagnosis.learn.laws import Law, Terms
 from pysim.diagnosis.learn.screening import LawModel
 from pysim.diagnosis.refit import FinalFit, begin
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
+from pysim.effects.learned import Law, Terms
 from pysim.identify.greybox import Nuisance
 from pysim.types import BadInput, Effect
 from pysim.types.answer import GainTest

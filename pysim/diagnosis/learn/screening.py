@@ -13,10 +13,10 @@ from numpy.typing import NDArray
 from pysim.diagnosis import rivals
 from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.learn.basis import Curve, knots, solve
-from pysim.diagnosis.learn.laws import TIME, Law, Place, samples
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.settings import LearnSettings
+from pysim.effects.learned import TIME, Law, Place, laws_at
 from pysim.identify.greybox import Problem
 from pysim.identify.greybox.observation import Run
 from pysim.identify.greybox.parameters import ParameterSpace
@@ -174,7 +174,7 @@ def distinct(places: Sequence[Place], signals: Mapping[str, Array]) -> list[Law]
     for place in places:
         shapes = [_scaled(samples(Law(place, i), signals)[0]) for i in range(len(place.arguments))]
         first = [next(j for j, other in enumerate(shapes) if _alike(one, other)) for one in shapes]
-        for law in place.laws():
+        for law in laws_at(place):
             if law.form is Form.SIGN:
                 own = samples(replace(law, form=Form.VARIABLE), signals)[1]
                 width = LearnSettings().sign_width * float(np.sqrt(np.mean(own**2)))
@@ -187,6 +187,18 @@ def distinct(places: Sequence[Place], signals: Mapping[str, Array]) -> list[Law]
             if law.form is not Form.SIGN or min(np.mean(by > 0.5), np.mean(by < -0.5)) > _BOTH:
                 found.append(law)
     return found
+
+
+def samples(law: Law, seen: Mapping[str, Array]) -> tuple[Array, Array]:
+    """Samples (n,) of a law's argument and factor, all sides concatenated, from those of the model's variables.
+    A bristle and a tone count as 1, which is the most that they reach."""
+    z, by = [], []
+    for side in law.place.sides:
+        argument, factor = law.seen(side)
+        z.append(seen[argument])
+        value = seen[factor] if factor and not law.free else np.ones(z[-1].size)
+        by.append(np.tanh(value / law.number) if law.form is Form.SIGN else value)
+    return np.concatenate(z), np.concatenate(by)
 
 
 def remembering(laws: Sequence[Law], signals: Mapping[str, Array], rate: float | None) -> list[Law]:

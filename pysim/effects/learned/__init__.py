@@ -1,7 +1,25 @@
-"""Laws that were learned: their curve between knots, a formula for it, and the Modelica class that has one of them."""
+"""Laws that are learned: where they may stand, terms that try them, their curve, a formula for it, their class."""
 
 from pysim.effects.learned.class_text import learned_class
 from pysim.effects.learned.curve import curve_basis, widths
 from pysim.effects.learned.formula import SHAPES, Formula, Shape, formulas
+from pysim.effects.learned.laws import Law, laws_at
+from pysim.effects.learned.places import TIME, Place, places
+from pysim.effects.learned.terms import Terms, wrapped
 
-__all__ = ["SHAPES", "Formula", "Shape", "curve_basis", "formulas", "learned_class", "widths"]
+__all__ = [
+    "SHAPES",
+    "TIME",
+    "Formula",
+    "Law",
+    "Place",
+    "Shape",
+    "Terms",
+    "curve_basis",
+    "formulas",
+    "laws_at",
+    "learned_class",
+    "places",
+    "widths",
+    "wrapped",
+]

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from pysim.diagnosis.learn.laws import Form, Law, Terms, places
 from pysim.diagnosis.learn.screening import distinct
 from pysim.effects import Slot
 from pysim.effects.law_units import quotient
-from pysim.effects.learned import curve_basis
+from pysim.effects.learned import Law, Terms, curve_basis, laws_at, places
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Signal
+from pysim.types.factor import Form
 from tests.known_answers.plants import PLANTS
 from tests.pysim.diagnosis.plants import variants
 
@@ -23,7 +23,7 @@ def test_laws_at_a_slot_depend_on_what_it_sees_and_on_states_and_inputs_besides(
     assert set(where) == {"guideway", "amplifier"}
     assert where["guideway"].arguments[:2] == ("guideway.x", "guideway.v")
     assert {"i", "x_ref"} <= set(where["guideway"].arguments)
-    names = {(str(law.factor), law.argument) for law in where["guideway"].laws()}
+    names = {(str(law.factor), law.argument) for law in laws_at(where["guideway"])}
     assert {("", "guideway.v"), ("v", "guideway.x"), ("sign(v)", "i"), ("x", "x_ref")} <= names
     assert ("v", "guideway.v") not in names
 
