@@ -205,7 +205,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         ),
         "diagnosis": Case(
             "validation.diagnosis.case",
-            "sixteen data sets of another author's plant: five diagnosed again, the others as stored",
+            "ten data sets of another author's plant whose truth is known: five of them, others each day",
             "diagnosis",
         ),
         "real-measurements": Case(

@@ -5,13 +5,14 @@ from __future__ import annotations
 from dataclasses import replace
 from functools import cache
 
+from pysim.diagnosis import diagnose
 from pysim.identify.greybox import Parameter, fit, problem
 from pysim.thesis import pump_model
 from pysim.types import Dataset, Fit, Model
 from validation.accuracy.judged import HELD_OUT, Judged, judged
 from validation.accuracy.transfer import black_box
 from validation.asked import PUMP
-from validation.diagnosis.answers import read_answers
+from validation.diagnosis.intervals import named
 from validation.diagnosis.sets import read_set
 from validation.fit_thesis.case import LOCKED, NAMES
 
@@ -40,15 +41,14 @@ def fitted(label: str) -> Fit:
 
 
 def diagnosed() -> tuple[Model, list[Parameter]]:
-    """The base model with the effects that the stored diagnosis added, and their strengths as it found them."""
-    answer = read_answers()[SET]
-    known = {effect.name: effect for effect in PUMP.catalogue}
-    effects = [known[name] for name in answer.added]
-    model, places = PUMP.variants.build(effects)
+    """The base model with the effects that a diagnosis of these logs adds, and their strengths as it finds them."""
+    withheld = tuple(replace(r, use="test" if r.use == HELD_OUT else r.use) for r in dataset().records)
+    found = named(diagnose(PUMP.session(replace(dataset(), records=withheld))))
+    model, places = PUMP.variants.build([one.effect for one in found])
     strengths = [
-        Parameter(f"{places[effect.name]}.{parameter.name}", answer.values[f"{effect.name}: {parameter.name}"][0])
-        for effect in effects
-        for parameter in effect.parameters
+        Parameter(f"{places[one.effect.name]}.{parameter.name}", estimate.value)
+        for one in found
+        for parameter, estimate in zip(one.effect.parameters, one.estimates, strict=True)
     ]
     return model, strengths
 
