@@ -192,7 +192,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         ),
         "blind-benchmark": Case(
             "validation.blind.benchmark.case",
-            "twelve of 1090 blind cases, or all that this commit has answered",
+            "twelve of 240 blind cases of a seed, or all that this commit has answered",
             "diagnosis",
         ),
         "nulls": Case(
@@ -252,7 +252,7 @@ CASES: Mapping[str, Case] = MappingProxyType(
         "table-5-1": Case(_THESIS + "table_5_1.case", "parameters of the linear models", "thesis", quick=True),
         "readers": Case("validation.readers.case", "10,000 spoiled inputs for each reader of files"),
         "mutations": Case(
-            "validation.mutations.case", "40 faults planted in formulas of the thesis: a test notices each", "thesis"
+            "validation.mutations.case", "40 faults planted in formulas of the thesis: a test notices each"
         ),
         "mirror": Case(
             "validation.mirror.case",

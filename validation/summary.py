@@ -39,7 +39,7 @@ def short_summary(results: Iterable[CaseResult]) -> str:
         kept = f"{sum(finding.holds for finding in checks)} of {len(checks)}" if checks else ""
         rows.append([title, f"{len(done)} of {len(names)}", *counts, kept])
     head = ["", "cases recorded", "claims that hold", "fail", "skipped", "regression checks that hold"]
-    words = (f"Counted: what commit {commit or '-'} recorded. {_older(last, commit)}", _failing(now))
+    words = (f"Counted: what commit {commit or '-'} recorded. {_older(last, commit)} {_missing(last)}", _failing(now))
     return "\n".join([*_table(head, rows), "", *words, ""])
 
 
@@ -94,6 +94,12 @@ def _older(last: Mapping[str, CaseResult], commit: str) -> str:
     return f"Older, and counted nowhere: {', '.join(older)}." if older else "No record is older."
 
 
+def _missing(last: Mapping[str, CaseResult]) -> str:
+    """Which cases have no record at all."""
+    missing = [name for name in CASES if name not in last]
+    return f"Not recorded: {', '.join(missing)}." if missing else "Every case is recorded."
+
+
 def _failing(last: Mapping[str, CaseResult]) -> str:
     """How many claims fail, by case."""
     named = [
@@ -102,8 +108,7 @@ def _failing(last: Mapping[str, CaseResult]) -> str:
         if result.verdict == FAILS
     ]
     failing = f"Claims that fail: {', '.join(named)}." if named else "No claim of these cases fails."
-    unknown = len(CASES.keys() - last.keys())
-    return f"{failing} Nothing is known of the {unknown} cases that are not recorded." if unknown else failing
+    return failing
 
 
 def _not_held(result: CaseResult) -> list[str]:
