@@ -16,6 +16,7 @@ ANSWERS = (
     replace(NAMED, kind="pair", truth=("a", "b"), named=("b", "a")),
     replace(NAMED, kind="pair", truth=("a", "b"), remaining=30.0),
     replace(NAMED, kind="pair", truth=("a", "b"), remaining=300.0),
+    replace(NAMED, kind="pair", truth=("a", "b"), named=("a", "c"), remaining=30.0),
     replace(NAMED, kind="beyond", truth=("x",), named=(), complete=False),
     replace(NAMED, kind="beyond", truth=("x",), named=(), detectability=20.0),
     replace(NAMED, kind="left-out", truth=("y",), named=(), learned=("force",)),
@@ -33,16 +34,16 @@ def test_what_is_counted() -> None:
     assert found["right effect among the first two, detectability 100 or more"] == (2, 2)
     assert found["another named first, in a tie with the right one, detectability 100 or more"] == (1, 2)
     assert found["a wrong effect named, detectability below 100"] == (1, 1)
-    assert found["two effects at once, both named"] == (1, 3)
-    assert found["the same, without pairs of which less than 100 remains"] == (1, 2)
+    assert found["two effects at once, both named"] == (1, 4)
+    assert found["the same, without pairs of which less than 100 remains"] == (1, 3)
     assert found["an effect outside the catalogue answered with unknown"] == (2, 2)
     assert found["a physical effect named although none is missing"] == (1, 3)
     assert found["said to be incomplete although nothing is missing"] == (1, 3)
     assert found["right effect named first though its law has another shape"] == (1, 1)
-    assert found["a sensor's error named that is not there"] == (1, 14)
-    assert found["residual on unseen logs at most 1.05 of the noise once named"] == (7, 8)
-    assert found["a step that raised the residual on unseen logs"] == (1, 14)
-    assert found["cases without an answer"] == (1, 14)
+    assert found["a sensor's error named that is not there"] == (1, 15)
+    assert found["residual on unseen logs at most 1.05 of the noise once named"] == (8, 9)
+    assert found["a step that raised the residual on unseen logs"] == (1, 15)
+    assert found["cases without an answer"] == (1, 15)
     assert any("no answer" in line for line in page(ANSWERS, "title"))
 
 

@@ -22,7 +22,7 @@ _SENSORS = {"offset": "sensor.offset", "gain": "sensor.gain", "shift": "sensor.d
 def figures(answers: Sequence[Answer]) -> Iterator[Share]:
     """How often names, their order and their absence are right."""
     named, none, shaped, pairs = (_of_kind(answers, kind) for kind in ("named", "none", "shaped", "pair"))
-    whole = [a for a in pairs if _both(a) or a.remaining is None or a.remaining >= DETECTABLE]
+    whole = [a for a in pairs if not _hidden(a)]
     outside = [a for a in _of_kind(answers, "beyond") + _of_kind(answers, "left-out") if detectable(a)]
     large, small = [a for a in named if detectable(a)], [a for a in named if not detectable(a)]
     yield _share("right effect named first, detectability 100 or more", large, right_first, (95, 100))
@@ -81,6 +81,12 @@ def first_two(answer: Answer) -> bool:
 
 def _both(answer: Answer) -> bool:
     return set(answer.truth) <= set(answer.named)
+
+
+def _hidden(answer: Answer) -> bool:
+    """One of a pair is named and nothing wrong, and what remains is too small for a name."""
+    right = bool(answer.named) and set(answer.named) <= set(answer.truth)
+    return right and not _both(answer) and answer.remaining is not None and answer.remaining < DETECTABLE
 
 
 def _wrong(answer: Answer) -> bool:
