@@ -76,6 +76,13 @@ class Products:
         rest, _ = self._split(weights)
         return rest[1:, 1:], rest[1:, 0], float(rest[0, 0])
 
+    @property
+    def beyond_parameters(self) -> float:
+        """Share of the norm of the law's Jacobian that the model's parameters cannot imitate, 0 ... 1."""
+        gram = self.across(np.ones(self.samples.size + 1))[0]
+        whole = np.trace(self.parts[:, -len(gram) :, -len(gram) :].sum(axis=0))
+        return math.sqrt(max(float(np.trace(gram)) / float(whole), 0.0))
+
     def left(self, weights: Array, values: Array) -> Array:
         """(n_c + 1,) sums of squares over the point's levels that remain with a law's coefficients (m,)."""
         _, by = self._split(weights)

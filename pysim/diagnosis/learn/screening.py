@@ -18,6 +18,7 @@ from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.settings import LearnSettings
 from pysim.effects.learned import TIME, Law, Place, laws_at
 from pysim.identify.greybox import Problem
+from pysim.identify.greybox.identifiability import EXACT
 from pysim.identify.greybox.observation import Run
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.problem import beside
@@ -250,7 +251,8 @@ def screen(
     signals: Mapping[str, Array],
     floors: Mapping[Channel, float],
 ) -> list[Ranked]:
-    """Screen every law to first order; the best score first. Laws that cannot be simulated are left out.
+    """Screen every law to first order; the best score first. Laws that cannot be simulated are left out, and those that
+    the model's parameters imitate, such as a curve over an input of two values.
 
     Args:
         present: the fitted model that lacks something.
@@ -264,8 +266,11 @@ def screen(
         model = models[law.place.key]
         k = knots(z, model.count)
         slopes = model.slopes(law, k, by)
-        if slopes is not None and np.linalg.norm(slopes[1]) > 0:
-            found.append(_ranked(law, k, slopes[0], table.with_(slopes[1])))
+        if slopes is None or not np.linalg.norm(slopes[1]) > 0:
+            continue
+        own = table.with_(slopes[1])
+        if own.beyond_parameters > EXACT:
+            found.append(_ranked(law, k, slopes[0], own))
     count = max(rivals.samples(present), 3.0)
     sizes = [one.curve.edf + len(one.law.free) for one in found]
     scored = [

@@ -2,12 +2,16 @@
 
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
+from scipy.integrate import solve_ivp
 
-from pysim.diagnosis import Session, diagnose, learn
-from pysim.types import NoteCode, answer_data
+from pysim.diagnosis import Session, diagnose, learn, session
+from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, NoteCode, Record, answer_data
 from pysim.types.answer import Diagnosis, Verdict
+from pysim.types.record_kind import Command
+from pysim.workflow.variants import Variants
 from tests.known_answers.plants import Values
 from tests.pysim.diagnosis.learn.clocked import DESIGN, on_a_clock, within_the_band
 from tests.pysim.diagnosis.plants import given, measured
@@ -147,3 +151,42 @@ def test_a_law_that_another_log_contradicts_is_vetoed() -> None:
     assert not found.learned
     assert not found.complete
     assert NoteCode.LAW_VETOED in {note.code for note in found.notes}
+
+
+LAG = """
+model Lag "A lag with a gain and an offset"
+  parameter Real a(unit="1/s", min=0.1, max=10, nominal=1) = 1;
+  parameter Real K(unit="1/s", min=0.1, max=10, nominal=1) = 1;
+  parameter Real c(unit="1/s", min=-10, max=10, nominal=1) = 0;
+  input Real F(unit="1", start=0);
+  output Real x(unit="1", start=0, fixed=true);
+equation
+  der(x) = -a*x + K*F + c;
+end Lag;
+"""
+
+
+def test_a_curve_over_an_input_of_two_values_is_what_gain_and_offset_can_do_and_is_not_tried(tmp_path: Path) -> None:
+    """The law is -x^3. An input that is switched, as in many tests, takes no other value than its two."""
+    (tmp_path / "Lag.mo").write_text(LAG, encoding="utf-8")
+    rng, records, hold = np.random.default_rng(3), list[MeasuredRecord](), 0.5
+    for name in ("one", "two"):
+        time, x, level = np.arange(0, 30, 0.05), [0.0], rng.integers(0, 2, 61).astype(float)
+        level[0] = 0.0  # it rests there
+        for k in range(60):
+            span = np.linspace(0, hold, 11)
+            part = solve_ivp(lambda t, y, F: -y + F - y**3, (0, hold), x[-1:], t_eval=span, args=(level[k],), rtol=1e-9)
+            x += part.y[0, 1:].tolist()
+        values = np.column_stack([np.repeat(level[:60], 10), np.array(x[:-1]) + 1e-3 * rng.standard_normal(time.size)])
+        records.append(MeasuredRecord(name, "stochastic", "fit", Record(time, values, ("F", "x"), ("1", "1"))))
+    signals = (
+        MeasuredSignal("F", "input", "1", "F", "F", hold=Command.STEPS),
+        MeasuredSignal("x", "output", "1", "x", "x"),
+    )
+    own = Variants("Lag", (tmp_path / "Lag.mo",))
+    data = Dataset("lag", "switched", "plant", signals, tuple(records))
+    found = learn(session(own.build(())[0], data, initial="rest", workers=1, build_law=own.probed))
+    (law,) = found.learned
+    assert law.argument == "x"
+    assert found.history[-1].fit is not None
+    assert found.history[-1].fit < 1.1
