@@ -111,7 +111,7 @@ class Law(Shown):
         best = self._formula if formula else None
         if formula and best is None:
             raise BadInput(f"no formula fits the curve at {self.slot}; leave out formula=True", argument="formula")
-        curve = self.found.coefficients.tobytes().hex() if best is None else best.text("z")
+        curve = self.found.coefficients.tobytes().hex() + ("|formula" if formula else "")
         folder = effect_folder(f"{name}|{description}|{self.found.slot}|{curve}{within}")
         file = folder / f"{class_name_of(name)}.mo"
         if not file.exists():

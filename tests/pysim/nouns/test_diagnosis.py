@@ -133,6 +133,8 @@ def test_the_formula_of_a_law_becomes_an_effect_too(missing: Law, mass: Model, d
     """Its amounts and widths are the effect's parameters; on the data it is as good as the curve."""
     curve, formula = missing.to_effect("my.rubbing"), missing.to_effect("my.rubbing", formula=True)
     assert formula.file != curve.file
+    nearly = replace(missing, found=replace(missing.found, coefficients=1.00001 * missing.found.coefficients))
+    assert nearly.to_effect("my.rubbing", formula=True).file != formula.file  # a text of three digits hides it
     assert {one.name[:2] for one in formula.found.parameters} <= {"a_", "w_"}
     beside = [mass.with_effects(one).set(**missing.found.parameters) for one in (curve, formula)]
     by_curve, by_formula = pysim.compare(*beside, data).table["x noise"][::2]
