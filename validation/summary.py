@@ -107,8 +107,7 @@ def _failing(last: Mapping[str, CaseResult]) -> str:
         for name, result in last.items()
         if result.verdict == FAILS
     ]
-    failing = f"Claims that fail: {', '.join(named)}." if named else "No claim of these cases fails."
-    return failing
+    return f"Claims that fail: {', '.join(named)}." if named else "No claim of these cases fails."
 
 
 def _not_held(result: CaseResult) -> list[str]:

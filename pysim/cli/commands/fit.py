@@ -33,8 +33,16 @@ if TYPE_CHECKING:
 
 def run(given: Given) -> Fitted:
     """The estimates, with exact intervals where these were asked for."""
-    from pysim.identify.greybox import OBJECTIVES, Effort, GaussNewton, InteriorPoint, Processes, Simulation, profile
-    from pysim.identify.greybox.problem import of_outputs
+    from pysim.identify.greybox import (
+        OBJECTIVES,
+        Effort,
+        GaussNewton,
+        InteriorPoint,
+        Processes,
+        Simulation,
+        of_outputs,
+        profile,
+    )
     from pysim.io import in_model_units
     from pysim.present.fit import Fitted
     from pysim.present.progress import Searching, Working, announce_compilation
