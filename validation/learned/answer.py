@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import sys
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -13,9 +13,10 @@ from typing import Any
 
 import numpy as np
 from fmpy import simulate_fmu
+from numpy.typing import NDArray
 
 from pysim.diagnosis import Session, diagnose
-from pysim.effects.learned import curve_basis
+from pysim.effects.learned import Law, Terms, curve_basis, places
 from pysim.types import Dataset, Effect
 from pysim.types.answer import Diagnosis, LearnedLaw
 from pysim.types.factor import Form
@@ -24,6 +25,8 @@ from validation.asked import PUMP, Step, steps_of
 from validation.batch import Line, serve
 from validation.held_out import held_out_rms
 from validation.learned.cases import CASES, NOISE, LearnedCase, measure
+
+Array = NDArray[np.float64]
 
 _ALIKE = {"xp": "x", "piston.x": "x", "linkage.s": "x", "xp_t": "v", "piston.v": "v", "spool.u": "s", "u": "s",
           "chamber1.p": "p1", "chamber2.p": "p2"}  # fmt: skip
@@ -48,7 +51,8 @@ class Answer:
         band: share of the first curve's range over which its 95 percent band holds the true curve; None where the true
             law is no curve of these variables.
         fitted, again: residual over the noise on the wave that may choose, as the answer states it and of the class.
-        exported: largest difference of its FMUs of FMI 2 and 3 in FMPy, over the range; None where no law was learned.
+        exported: largest difference of its FMUs of FMI 2 and 3 from the fitted model, all in FMPy, over the range; None
+            where no law was learned.
         before, after: error of the refitted base model and of the last one; None where that cannot be simulated.
         seconds, cpu: of the diagnosis, by the clock and of this process.
         trouble: why there is no answer.
@@ -121,26 +125,50 @@ def answer(case: LearnedCase, ask: Callable[[Session], Diagnosis] = diagnose) ->
         error(steps[-1], measured.unseen),
         found.history[-1].validate if found.history else None,
         error(steps[-1], measured.given, "validate"),
-        difference(found) if found.learned else None,
+        difference(found, steps[-1]) if found.learned else None,
         wall,
         cpu,
     )
 
 
-def difference(found: Diagnosis) -> float:
-    """Between a second's run of both kinds of FMU in FMPy, after a step of the command, over the range."""
-    runs = []
+def difference(found: Diagnosis, last: Step) -> float:
+    """Largest, in FMPy, of the class as FMU of FMI 2 and of FMI 3 from the model that was fitted, over the range.
+
+    The fitted model holds the law as the term that its diagnosis compiled, with the law's numbers as parameters. All
+    run a second after a step of the command.
+
+    Args:
+        last: step of the answer, whose parameters all have.
+    """
     with TemporaryDirectory(prefix="learned-") as folder:
         effects, variants = with_laws(found, PUMP.variants, Path(folder))
+        fitted, law = _fitted(found)
+        runs = [_run(fitted, {**last.values, **law})]
         for fmi in (2, 3):
             fmu = Path(folder) / f"export{fmi}.fmu"
             variants.write(effects, Path(folder), fmu, fmi=fmi)
-            done = simulate_fmu(
-                str(fmu), stop_time=1.0, output_interval=1e-3, relative_tolerance=1e-8, fmi_type="ModelExchange",
-                start_values={"alphaCMD": 30.0}, output=["alphaPercent"],
-            )  # fmt: skip
-            runs.append(np.asarray(done["alphaPercent"]))
-    return float(np.max(np.abs(runs[0] - runs[1])) / np.ptp(runs[0]))
+            runs.append(_run(fmu, last.values))
+    return float(max(np.max(np.abs(run - runs[0])) for run in runs[1:]) / np.ptp(runs[0]))
+
+
+def _fitted(found: Diagnosis) -> tuple[Path, dict[str, float]]:
+    """FMU of the model that was fitted, with a term at the law's place, and the parameters that make it the law."""
+    effects, own = [one.effect for one in found.effects if one.effect.class_name], found.learned[0]
+    place = next(one for one in places(PUMP.variants.slots, PUMP.model) if one.name == own.slot)
+    factor, sees = own.factor, place.sides[0].own
+    by = sees.index(f"{place.name}.{factor.variable}") if factor.variable else None
+    law = Law(place, place.arguments.index(own.argument), factor.form, by, factor.number, factor.rate)
+    values = law.settings(own.knots)
+    values |= dict(zip(place.coefficients(own.knots.size), own.coefficients.tolist(), strict=True))
+    return PUMP.variants.probed(effects, Terms((place,), own.knots.size, bool(law.free))).path, values
+
+
+def _run(fmu: Path, values: Mapping[str, float]) -> Array:
+    done = simulate_fmu(
+        str(fmu), stop_time=1.0, output_interval=1e-3, relative_tolerance=1e-8, fmi_type="ModelExchange",
+        start_values={**values, "alphaCMD": 30.0}, output=["alphaPercent"],
+    )  # fmt: skip
+    return np.asarray(done["alphaPercent"], dtype=np.float64)
 
 
 def error(step: Step, data: Dataset, use: str = "test") -> float | None:

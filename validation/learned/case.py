@@ -60,7 +60,12 @@ def shares(answers: Sequence[Answer]) -> Iterator[Share]:
     yield Share("bands that hold the true curve over nine tenths of its range", hits, len(bands), (90, 100))
     yield Share("a law found where none acts", sum(not one.place for one in unseen), len(unseen), (0, 0))
     exported = [one.exported for one in answers if one.exported is not None]
-    yield Share("FMUs of FMI 2 and 3 that differ", sum(not d <= _ALIKE for d in exported), len(exported), (0, 0))
+    yield Share(
+        "FMUs of FMI 2 and 3 that differ from what was fitted",
+        sum(not d <= _ALIKE for d in exported),
+        len(exported),
+        (0, 0),
+    )
     kept = [one for one in answers if one.exported is not None and one.fitted is not None]
     other = sum(one.again is None or abs(one.again / (one.fitted or 1.0) - 1) > _SAME for one in kept)
     yield Share("learned classes that do not run as what was fitted", other, len(kept), (0, 0))
