@@ -357,8 +357,9 @@ class Model(Shown):
                 raise BadInput(f"effect {name}: named twice, or there already; name each effect once")
         values = {**built_in(self.base, wider.libraries), **self.values}
         grown = replace(wider, effects_in=(*self.effects_in, *found), values=values, label="")
-        learned = {f"{grown.places[e.name]}.{p.name}" for e in found for p in e.strengths if p.default != p.off}
-        grown = replace(grown, held=grown.held | learned)  # they have their values already
+        strengths = [(e, p) for e in found for p in e.strengths if p.default != p.off]
+        curve = {f"{grown.places[e.name]}.{p.name}" for e, p in strengths if p.name.endswith("]")}
+        grown = replace(grown, held=grown.held | curve)
         if self.chosen:
             more = [f"{grown.places[e.name]}.{p.name}" for e in found for p in e.parameters]
             grown = replace(grown, chosen=(*self.chosen, *more))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -74,7 +75,7 @@ def learned_class(
     note = f"{VENDOR}(effect={quoted(effect)}, slot={quoted(slot.name)})" if effect else ""
     return class_text(
         name,
-        description=description or f"{slot.description or slot.name}: depends on {argument} (learned)",
+        description=description or f"{slot.description or slot.name}: {writer.words} (learned)",
         comment=comment,
         extends=[(slot.takes, parts.modifications)],
         declarations=[*parts.declarations, *writer.declarations()],
@@ -148,13 +149,22 @@ class _Writer:
         """The factor with local names, a smooth sign, or the state of a bristle; "" for 1."""
         name = self._local(factor.variable) if factor.variable else ""
         if factor.form is Form.SIGN:
-            return f"tanh({name}/{factor.number:g})"
+            return f"tanh({name}/{factor.number:.8g})"
         if factor.form is Form.BRISTLE:
             if len([one for one in self._slot.gives if not one.endswith("_t")]) > 1:
                 raise BadInput(f"learned law at {self._slot.name}: it has two sides, which cannot share a bristle")
-            self._bristle = name, float(f"{factor.number:.4g}")
+            self._bristle = name, float(f"{factor.number:.8g}")
             return f"{name}_bristle"
-        return str(replace(factor, variable=name))
+        if factor.form is Form.TONE:
+            return f"cos({factor.rate:.8g}*time + {factor.number % math.tau:.8g})"
+        return name
+
+    @property
+    def words(self) -> str:
+        """What it is, such as "v*h(x)"."""
+        factor = self._law.factor
+        name = self._local(factor.variable) if factor.variable else ""
+        return f"{replace(factor, variable=name)}*h({self.argument})".removeprefix("*")
 
     def _check(self) -> None:
         """Raise BadInput unless the curve's unit times the factor's is the slot's; units that are not SI pass."""

@@ -139,6 +139,8 @@ def test_the_formula_of_a_law_becomes_an_effect_too(missing: Law, mass: Model, d
     beside = [mass.with_effects(one).set(**missing.found.parameters) for one in (curve, formula)]
     by_curve, by_formula = pysim.compare(*beside, data).table["x noise"][::2]
     assert by_formula == pytest.approx(by_curve, rel=0.1)
+    own = {f"force.{one.name}" for one in formula.found.parameters}
+    assert set(mass.with_effects(formula).free_names) == {*mass.free_names, *own}
     level = replace(missing.found, coefficients=0 * missing.found.coefficients)
     with pytest.raises(BadInput, match="no formula"):
         replace(missing, found=level).to_effect("my.nothing", formula=True)

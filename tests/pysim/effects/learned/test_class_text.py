@@ -134,7 +134,7 @@ def test_a_class_runs_as_its_law_in_another_importer(lab: tuple[Path, ...], tmp_
     assert (effect.class_name, effect.slot, effect.description) == (
         "MyDamping",
         "force",
-        "Force: depends on x (learned)",
+        "Force: v*h(x) (learned)",
     )
     assert [p.default for p in effect.parameters] == pytest.approx(list(law.coefficients))
     assert {(p.off, p.min, p.max, p.unit) for p in effect.parameters} == {(0.0, -80.0, 80.0, "N.s/m")}
@@ -183,8 +183,8 @@ def test_time_can_be_the_argument(lab: tuple[Path, ...]) -> None:
 
 
 def test_a_tone_is_a_factor_of_time(lab: tuple[Path, ...]) -> None:
-    law = learned("force", Factor(Form.TONE, number=0.0, rate=7.5), "x", 0.5, "m", "N", 3.0)
-    right = mass(lambda t, x, v, warm: curve(law, x) * math.cos(7.5 * t))
+    law = learned("force", Factor(Form.TONE, number=1.23456, rate=7.5123456), "x", 0.5, "m", "N", 3.0)
+    right = mass(lambda t, x, v, warm: curve(law, x) * math.cos(7.5123456 * t + 1.23456))
     assert run_of(with_law(lab, "Mass", law)) == pytest.approx(right, abs=2e-6)
 
 
