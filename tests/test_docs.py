@@ -137,7 +137,7 @@ def page_name(page: Path) -> str:
 def pages_to_run() -> list[Any]:
     """Those that fit and diagnose take their time, and run where slow tests are asked for; the site's build executes
     the notebooks of the gallery."""
-    long = ("missing_effect.md", "own_model.md")
+    long = ("missing_effect.md", "own_model.md", "unknown_law.md")
     pages = [page for page in PAGES if page.parent.name != "gallery"]
     return [pytest.param(page, marks=[pytest.mark.slow] * (page.name in long)) for page in pages]
 

@@ -282,4 +282,4 @@ def _is_si(unit: str) -> bool:
 
 
 def _listed(values: Array) -> str:
-    return wrapped("{" + ", ".join(f"{value + 0.0:.8g}" for value in values) + "}", 110, subsequent_indent="    ")
+    return wrapped("{" + ", ".join(f"{value + 0.0:.8g}" for value in values) + "}", 90, subsequent_indent="    ")

@@ -68,6 +68,11 @@ def verdict_sentence(diagnosis: Diagnosis) -> str:
     if diagnosis.verdict == NONE:
         return f"Nothing is missing: the refitted model explains the measurements. {_left(diagnosis)}"
     if diagnosis.verdict == UNKNOWN:
+        if diagnosis.learned:
+            rest = _rest(diagnosis) if diagnosis.complete else _left(diagnosis)
+            return " ".join(
+                filter(None, [*laws, "No effect of the catalogue explains the misfit.", _fall(diagnosis), rest])
+            )
         tried = "Nothing that was tried explains it." if diagnosis.rivals else "No effect was tried."
         return " ".join([*(laws or ["Something is missing."]), tried, _left(diagnosis)])
     names = [_named(one) for one in diagnosis.effects]
@@ -276,9 +281,9 @@ def _fall(diagnosis: Diagnosis) -> str:
     parts = [f"from {one} to {other} {where}" if one != other else f"at {one} {where}" for where, one, other in told]
     falls = all(after <= before for before, after in pairs.values())
     verb = "stays" if all(one == other for _, one, other in told) else "falls" if falls else "goes"
-    who = "it" if len(diagnosis.effects) == 1 else "them"
-    who += f" and the learned law{'s' if len(diagnosis.learned) > 1 else ''}" if diagnosis.learned else ""
-    return f"With {who} the residual {verb} {listed(parts)}, in {UNIT}."
+    who = ["it" if len(diagnosis.effects) == 1 else "them"] if diagnosis.effects else []
+    who += [f"the learned law{'s' if len(diagnosis.learned) > 1 else ''}"] if diagnosis.learned else []
+    return f"With {' and '.join(who)} the residual {verb} {listed(parts)}, in {UNIT}."
 
 
 def signal_rows(records: Sequence[RecordFit]) -> list[tuple[str, str, float, float, float, str]]:

@@ -144,6 +144,10 @@ def test_an_unknown_that_was_learned_is_first_said_in_words() -> None:
     assert "Nothing but noise is left" not in verdict_sentence(found)
     noise = Left({}, 1.02, 1.03)
     assert "Nothing but noise is left" in verdict_sentence(replace(found, complete=True, left=noise))
+    steps = tuple(step(name, fit, None, 0.1) for name, fit in (("prior", 4.0), ("refit", 3.0), ("law", 1.0)))
+    said = verdict_sentence(replace(found, history=steps, complete=True, left=noise))
+    assert "With the learned law the residual falls from 3.00 to 1.00 on fitted logs" in said
+    assert "Nothing that was tried" not in said
 
 
 def test_only_what_is_as_small_as_the_noise_is_called_noise() -> None:

@@ -9,13 +9,6 @@ package Rail
   equation
     f = 0;
   end NoForce;
-  model Worn "Damping of a rail that is worn in the middle"
-    extends PartialForce;
-    parameter Real d_e(unit="N.s/m", min=0, max=100, nominal=10) = 0 "Damping far from the middle, 0 = off";
-  equation
-    f = -d_e*v*(1 - exp(-(x/0.05)^2));
-    annotation(__HydraulicTestBench(effect="rail.worn", slot="rail"));
-  end Worn;
   model Slide "A slide on a spring"
     parameter Real m(unit="kg", min=0.5, max=5, nominal=2) = 2;
     parameter Real d(unit="N.s/m", min=0, max=50, nominal=5) = 5;
