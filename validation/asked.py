@@ -54,8 +54,7 @@ class Subject:
         """
         names = [effect.name for effect in self.catalogue if effect.name not in left_out]
         opened = open_session(self.class_name, dataset, library=self.libraries, effects=names)
-        catalogue = opened.catalogue if names else ()  # no name at all means every effect
-        return replace(opened, catalogue=catalogue, workers=Threads(workers))
+        return replace(opened, workers=Threads(workers))
 
     def whole(self, found: Diagnosis) -> Diagnosis:
         """An answer with the classes of its laws."""

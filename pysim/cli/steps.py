@@ -49,12 +49,12 @@ def step_command(
     return Command(name, about, run, options=(*SUBJECT, *options, *written), **kind)
 
 
-def read_parts(given: Given, *, refits: bool = True, only: Sequence[str] = ()) -> SessionParts:
+def read_parts(given: Given, *, refits: bool = True, only: Sequence[str] | None = None) -> SessionParts:
     """What the command line names, opened.
 
     Args:
         refits: whether parameters will be refitted, so that some must be free.
-        only: effects to consider; all that the slots take, where none is named.
+        only: effects to consider; all that the slots take where None.
     """
     from pysim.cli.options import read_parameters
     from pysim.workflow import reference_of, session_parts

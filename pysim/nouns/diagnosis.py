@@ -30,7 +30,7 @@ def diagnose(
     subject: Subject,
     data: Measured | None = None,
     *,
-    effects: Sequence[str] = (),
+    effects: Sequence[str] | None = None,
     max_effects: int = 3,
     initial: Initial = None,
     checkpoint: Path | str | None = None,
@@ -41,7 +41,7 @@ def diagnose(
     Args:
         subject: a fit, which brings its data, or a model.
         data: what `pysim.load` gives; of a fit its own by default.
-        effects: names of the effects to consider; all that the model's slots take by default.
+        effects: names of the effects to consider; all that the model's slots take where None.
         max_effects: that are added at most.
         initial: of each log: "rest", "estimate", or state -> value; None as the fit had it, else as the data say.
         checkpoint: file that a diagnosis which was stopped goes on from.
@@ -58,7 +58,7 @@ def diagnose(
         raise BadInput(
             f"diagnose: the model has {names} already; diagnose the one without, which has it as a candidate"
         )
-    parts = _parts(model, dataset, begin, begins, names_of(effects, "effects"))
+    parts = _parts(model, dataset, begin, begins, None if effects is None else names_of(effects, "effects"))
     work = partial(searched, checkpoint=None if checkpoint is None else path_of(checkpoint, "checkpoint"))
     found = _asked(parts, work, progress, f"diagnosing {model.name}", Settings(max_effects=max_effects))
     return Diagnosis(found, replace(model, measured=dataset, initial=begin), parts)
@@ -105,7 +105,7 @@ def _given(
 
 
 def _parts(
-    model: Model, dataset: Dataset, initial: Initial, begins: Mapping[str, float], effects: Sequence[str] = ()
+    model: Model, dataset: Dataset, initial: Initial, begins: Mapping[str, float], effects: Sequence[str] | None = None
 ) -> SessionParts:
     """All that a session is made of."""
     from pysim.workflow import beginning, initial_values, reference_of, session_parts

@@ -69,7 +69,7 @@ def open_session(
     free: Sequence[str] = (),
     bounds: Bounds | None = None,
     values: Mapping[str, float] | None = None,
-    effects: Sequence[str] = (),
+    effects: Sequence[str] | None = None,
     reference_hz: float | Literal["by data"] | None = BY_DATA,
     settings: Settings | None = None,
 ) -> Session:
@@ -82,7 +82,7 @@ def open_session(
         free: parameters to refit; all to which the model gives min, max and nominal and that are not set by default.
         bounds: parameter -> lower and upper bound in its unit, in place of the model's; frees it too.
         values: parameters that differ from the model's, in their units; a free one begins there.
-        effects: consider only these; all that the model's slots take by default.
+        effects: consider only these; all that the model's slots take where None.
         reference_hz: whose gain counts as 0 dB in measured responses; None for absolute gains; by default 0.1 Hz where
             every test measured it, as in the thesis (Eq. 2.12).
         settings: numbers of the diagnosis; its own where None.
@@ -94,7 +94,7 @@ def open_session(
     dataset = data if isinstance(data, Dataset) else data_of(data)
     parts = session_parts(
         opened, dataset, libraries=libraries, free=names_of(free, "free"), bounds=bounds or {}, values=values or {},
-        effects=names_of(effects, "effects"),
+        effects=None if effects is None else names_of(effects, "effects"),
         reference_hz=reference_of(dataset.responses(), reference_hz),
     )  # fmt: skip
     return session_of(parts, settings)
@@ -109,7 +109,7 @@ def session_parts(
     bounds: Bounds,
     priors: Bounds | None = None,
     values: Mapping[str, float],
-    effects: Sequence[str] = (),
+    effects: Sequence[str] | None = None,
     reference_hz: float | None,
     refits: bool = True,
 ) -> SessionParts:
@@ -126,8 +126,8 @@ def session_parts(
     known = inside(model, libraries)
     if not known.class_name:
         notes += _from_outside(model)
-    catalogue = named(effects, known) if effects else known.candidates
-    if known.class_name and not catalogue:
+    catalogue = known.candidates if effects is None else named(effects, known)
+    if known.class_name and not known.candidates:
         notes.append(Note(NoteCode.NO_EFFECT_FITS, {"model": known.class_name}))
     overrides, chosen = dict(values), free_parameters(model, free, bounds, values) if refits else ()
     if refits:

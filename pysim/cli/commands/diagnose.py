@@ -22,7 +22,7 @@ def run(given: Given) -> Diagnosed:
     most = given.max_effects
     if most < 0:
         raise BadInput(f"--max-effects {most}: write how many effects may be added, 0 or more")
-    parts = read_parts(given, only=given.effects)
+    parts = read_parts(given, only=given.effects or None)
     session = session_of(parts, Settings(max_effects=most))
     return run_step(given, parts, partial(diagnose if most else rank, session), "diagnose" if most else "rank")
 

@@ -21,7 +21,7 @@ from pysim.workflow import (
 from tests.toy import CATALOGUE, library, measured
 
 
-def parts(*, model: Path | str = "Toy.Mass", effects: tuple[str, ...] = ()) -> SessionParts:
+def parts(*, model: Path | str = "Toy.Mass", effects: tuple[str, ...] | None = None) -> SessionParts:
     return session_parts(
         model_of(model, [library()]),
         measured(1, "toy.friction", F_c=0.4),
@@ -38,6 +38,8 @@ def test_names_and_paths_are_enough(rubbing: Path) -> None:
     assert (session.model["d"].start, [p.name for p in session.parameters]) == (0.5, ["m", "d"])
     assert {effect.name for effect in session.catalogue} == set(CATALOGUE)
     assert session.data.overrides == {"k": 19.0}
+    none = open_session("Toy.Mass", rubbing, library=library(), free=["m", "d"], effects=[])
+    assert (none.catalogue, session.catalogue == ()) == ((), False)
 
 
 def test_the_package_opens_a_session_itself(rubbing: Path) -> None:
