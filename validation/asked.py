@@ -89,7 +89,10 @@ def steps_of(found: Diagnosis, subject: Subject) -> tuple[Step, ...]:
     """
     by_name = {one.effect.name: one.effect for one in found.effects if one.effect.class_name}
     steps, effects, variants = list[Step](), list[Effect](), subject.variants
+    of_one_law = {step.step for step in found.history[-len(found.learned) : -1]} if found.learned else set()
     for k, step in enumerate(found.history[1:], start=2):  # the first is the untouched model
+        if step.step in of_one_law:
+            continue
         with TemporaryDirectory(prefix="asked-") as folder:
             if k == len(found.history) and found.learned:
                 effects, variants = with_laws(found, variants, Path(folder))

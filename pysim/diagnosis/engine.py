@@ -12,7 +12,7 @@ from pysim.diagnosis.candidate import Models, Refused
 from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.error_history import error_step, held_still
 from pysim.diagnosis.learn.described import answered
-from pysim.diagnosis.learn.fit import LawFit
+from pysim.diagnosis.learn.fit import LawFit, together
 from pysim.diagnosis.learn.learn import Learner, Learning
 from pysim.diagnosis.learn.names import without_the_unseated
 from pysim.diagnosis.learn.outside import outside_laws
@@ -25,7 +25,7 @@ from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput, Effect, NextTest, Note, NoteCode
-from pysim.types.answer import PRIOR, REFIT, Diagnosis, ErrorStep, Left
+from pysim.types.answer import PRIOR, REFIT, Diagnosis, ErrorStep, LearnedLaw, Left
 
 Named = Sequence[tuple[str, FinalFit]]  # steps of the error history: name and model
 
@@ -192,21 +192,27 @@ def _answer(
     named: Named = [*untouched, *_kept(found, models, final, search)]
     account = _account(session, found, named, search.fine)
     estimates = held_still(final)[0] if refitted else ()
-    much = found.floors.avoidable(final) > LearnSettings().least * found.floors.avoidable(found.base)
-    wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and much and not account.complete)
+    wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and _lacks_much(found, account))
     wanted &= session.build_law is not None
     learning = _learned(session, search, found) if wanted and not final.candidate.has_events else None
-    if learning is not None and learning.law is not None:
-        law = learning.law
+    laws, longer = list[Learning](), [learning] if learning is not None and learning.law is not None else []
+    while len(longer) > len(laws):
+        laws, law = longer, longer[-1].fits[0]
         found, named = _with_law(found, named, law)
         account = _account(session, found, named, finest(search.fine, law.fit.simulation))
-        estimates = law.of_the_model(account.history[-1].estimates)
-        account = replace(account, history=(*account.history[:-1], replace(account.history[-1], estimates=estimates)))
-    history = account.history
+        longer = _another(session, search, found, laws) if _lacks_much(found, account) else laws
+    if wanted:
+        search.say.stage("learn")
+    curves = {name for one in laws for name in one.fits[0].own}
+    history = tuple(
+        replace(step, estimates=tuple(one for one in step.estimates if one.name not in curves))
+        for step in account.history
+    )
+    estimates = history[-1].estimates if laws else estimates
     _said(search.say, history)
     search.say.stage("intervals")
     settles, unsettled = _next_test(session, found)
-    learned, missing = answered(learning, (history[-2].validate, history[-1].validate)) if learning else ((), ())
+    learned, missing = _of_each_place(laws or ([learning] if learning else []), history)
     of_law = [verdict.note_of_laws(learning, final)] if wanted and not learned else []
     places = {} if learning is None else {place: Refused(why) for place, why in learning.refused.items()}
     refused = search.models.refused | places
@@ -264,8 +270,43 @@ def _learned(session: Session, search: Search, found: Found) -> Learning:
             search.tried,
         )
         learning = replace(learning, fits=(law, *learning.fits[1:]))
-    search.say.stage("learn")
     return learning
+
+
+def _lacks_much(found: Found, account: _Account) -> bool:
+    """Whether more than a small share of what the base model lacked is left."""
+    floors = found.floors
+    much = floors.avoidable(found.final) > LearnSettings().least * floors.avoidable(found.base)
+    return much and not account.complete
+
+
+def _another(session: Session, search: Search, found: Found, laws: list[Learning]) -> list[Learning]:
+    """The laws and one more that is learned beside them, all refitted; the same laws if no more is found or allowed."""
+    if len(laws) + len(found.final.names) >= session.settings.max_effects:
+        return laws
+    fits, floors = [one.fits[0] for one in laws], found.floors
+    learner = Learner(session, fits[-1].held, floors, search.tried, search.vetoed, search.say.doing, beside=fits)
+    more = learner.learn()
+    if more.law is None:
+        return laws
+    scale = floors.avoidable(more.present) / max(floors.avoidable(laws[0].present), 1e-9)
+    more = replace(more, shares=tuple(scale * share for share in more.shares))
+    search.say.doing("refitting all laws")
+    again = together([*fits, more.fits[0]], LearnSettings().heat, session.settings.least_gain)
+    return [replace(one, fits=(fit, *one.fits[1:])) for one, fit in zip([*laws, more], again, strict=True)]
+
+
+def _of_each_place(
+    laws: Sequence[Learning], history: Sequence[ErrorStep]
+) -> tuple[tuple[LearnedLaw, ...], tuple[LearnedLaw, ...]]:
+    """The laws that were kept, and the best law of each place, as `Diagnosis` has them."""
+    steps = range(-len(laws), 0)
+    answers = [
+        answered(one, (history[k - 1].validate, history[k].validate)) for k, one in zip(steps, laws, strict=True)
+    ]
+    learned = tuple(law for kept, _ in answers for law in kept)
+    taken = {law.slot for law in learned}
+    return learned, (*learned, *(law for _, places in answers[:1] for law in places if law.slot not in taken))
 
 
 def _next_test(session: Session, found: Found) -> tuple[NextTest | None, list[Note]]:

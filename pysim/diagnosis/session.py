@@ -11,7 +11,7 @@ from typing import Any
 
 from pysim.diagnosis.settings import Settings
 from pysim.effects import Slot
-from pysim.effects.learned import Terms
+from pysim.effects.learned import Term
 from pysim.identify import THESIS_REFERENCE_HZ
 from pysim.identify.adequacy import shortcomings
 from pysim.identify.greybox import Measurements, Parameter, Problem, Rest, Threads, Treatment, problem
@@ -24,7 +24,7 @@ from pysim.types import BadInput, Dataset, Effect, Model, Note, NoteCode
 BuildVariant = Callable[[Sequence[Effect]], tuple[Model, Mapping[str, str]]]
 
 # Effects, and terms of learned laws -> the compiled model that has both.
-BuildLaw = Callable[[Sequence[Effect], Terms], Model]
+BuildLaw = Callable[[Sequence[Effect], Sequence[Term]], Model]
 
 TEST = "test"
 

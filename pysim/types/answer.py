@@ -440,6 +440,11 @@ class Diagnosis:
         return (*self.learned, *(law for law in self.missing if law.slot not in added))
 
     @property
+    def likeliest(self) -> tuple[LearnedLaw, ...]:
+        """Learned laws that were added; the best one that was tried where none was."""
+        return self.learned or self.missing[:1]
+
+    @property
     def base(self) -> ErrorStep | None:
         """The refitted model; the untouched one where nothing was refitted, None where nothing was simulated."""
         steps = {step.step: step for step in self.history}

@@ -14,7 +14,7 @@ from pysim.workflow.model import compiled
 
 if TYPE_CHECKING:
     from pysim.effects import Slot
-    from pysim.effects.learned import Terms
+    from pysim.effects.learned import Term
     from pysim.types import Effect, Model
 
 
@@ -80,20 +80,22 @@ class Variants:
         made = variant(self.class_name, effects, self.libraries, name=name, values=values, comment=comment)
         return self._compiled(name, made.text, folder, fmu, fmi=fmi, platforms=platforms), made.places
 
-    def probed(self, effects: Sequence[Effect], law: Terms) -> Model:
-        """The model with these effects and a term at one place of it, as a table whose values are parameters.
+    def probed(self, effects: Sequence[Effect], terms: Sequence[Term]) -> Model:
+        """The model with these effects and terms, each a table at its place whose values are parameters.
 
         Raises:
-            BadInput: a class that does not compile with that term.
+            BadInput: a class that does not compile with these terms.
         """
         from pysim.effects import variant
         from pysim.effects.learned import wrapped
 
         name = f"{self._own_name}Located"
         made = variant(self.class_name, effects, self.libraries, name=f"{name}Base") if effects else None
-        text = (made.text if made else "") + wrapped(made.class_name if made else self.class_name, law, name)
+        text = (made.text if made else "") + wrapped(made.class_name if made else self.class_name, terms, name)
         with TemporaryDirectory(prefix="pysim-located-") as folder, _refusals():
-            return self._compiled(name, text, Path(folder), None, probes=law.probes)
+            return self._compiled(
+                name, text, Path(folder), None, probes=[probe for term in terms for probe in term.probes]
+            )
 
     @property
     def _own_name(self) -> str:

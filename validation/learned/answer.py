@@ -16,7 +16,7 @@ from fmpy import simulate_fmu
 from numpy.typing import NDArray
 
 from pysim.diagnosis import Session, diagnose
-from pysim.effects.learned import Law, Terms, curve_basis, places
+from pysim.effects.learned import Law, Term, curve_basis, places
 from pysim.types import Dataset, Effect
 from pysim.types.answer import Diagnosis, LearnedLaw
 from pysim.types.factor import Form
@@ -142,8 +142,8 @@ def difference(found: Diagnosis, last: Step) -> float:
     """
     with TemporaryDirectory(prefix="learned-") as folder:
         effects, variants = with_laws(found, PUMP.variants, Path(folder))
-        fitted, law = _fitted(found)
-        runs = [_run(fitted, {**last.values, **law})]
+        fitted, laws = _fitted(found)
+        runs = [_run(fitted, {**last.values, **laws})]
         for fmi in (2, 3):
             fmu = Path(folder) / f"export{fmi}.fmu"
             variants.write(effects, Path(folder), fmu, fmi=fmi)
@@ -152,15 +152,18 @@ def difference(found: Diagnosis, last: Step) -> float:
 
 
 def _fitted(found: Diagnosis) -> tuple[Path, dict[str, float]]:
-    """FMU of the model that was fitted, with a term at the law's place, and the parameters that make it the law."""
-    effects, own = [one.effect for one in found.effects if one.effect.class_name], found.learned[0]
-    place = next(one for one in places(PUMP.variants.slots, PUMP.model) if one.name == own.slot)
-    factor, sees = own.factor, place.sides[0].own
-    by = sees.index(f"{place.name}.{factor.variable}") if factor.variable else None
-    law = Law(place, place.arguments.index(own.argument), factor.form, by, factor.number, factor.rate)
-    values = law.settings(own.knots)
-    values |= dict(zip(place.coefficients(own.knots.size), own.coefficients.tolist(), strict=True))
-    return PUMP.variants.probed(effects, Terms((place,), own.knots.size, bool(law.free))).path, values
+    """FMU of the model that was fitted, with a term at each law's place, and the parameters that make them the laws."""
+    where = {one.name: one for one in places(PUMP.variants.slots, PUMP.model)}
+    effects = [one.effect for one in found.effects if one.effect.class_name]
+    terms, values = list[Term](), dict[str, float]()
+    for own in found.learned:
+        place, factor = where[own.slot], own.factor
+        by = place.sides[0].own.index(f"{place.name}.{factor.variable}") if factor.variable else None
+        law = Law(place, place.arguments.index(own.argument), factor.form, by, factor.number, factor.rate)
+        values |= law.settings(own.knots)
+        values |= dict(zip(place.coefficients(own.knots.size), own.coefficients.tolist(), strict=True))
+        terms.append(Term(place, own.knots.size, bool(law.free)))
+    return PUMP.variants.probed(effects, terms).path, values
 
 
 def _run(fmu: Path, values: Mapping[str, float]) -> Array:

@@ -14,7 +14,7 @@ from pysim.diagnosis.learn.basis import Smoothness, lines, missed
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.learn.screening import LawModel, Ranked
 from pysim.diagnosis.refit import FinalFit, advance, exact
-from pysim.effects.learned import Law
+from pysim.effects.learned import Law, Term
 from pysim.identify.greybox import GaussNewton, Point, Simulation
 from pysim.identify.greybox.residuals import Carried, with_rows
 from pysim.types import Estimate
@@ -59,6 +59,24 @@ class LawFit:
     def found(self) -> Law:
         """The law with the refitted number of its factor."""
         return replace(self.law, number=self.fit.values[self.law.free[0]]) if self.law.free else self.law
+
+    @property
+    def term(self) -> Term:
+        """What the model is compiled with for this law."""
+        return Term(self.law.place, self.knots.size, bool(self.law.free))
+
+    @property
+    def numbers(self) -> dict[str, float]:
+        """The parameters that make the term this law, with the refitted values."""
+        return self.law.settings(self.knots, self.unit) | {name: self.fit.values[name] for name in self.own}
+
+    @property
+    def held(self) -> FinalFit:
+        """The fitted model with the law's numbers held, so that another law may be learned beside it."""
+        own, space = self.fit.candidate, self.model.present.candidate.space
+        problem = replace(own.problem, space=replace(space, fixed={**space.fixed, **self.numbers}))
+        x, carried = self.fit.point.x[: -len(self.own)], self.fit.point.carried
+        return refit.again(replace(own, problem=problem, precision=None), x, carried, self.fit.simulation)
 
     @property
     def own(self) -> tuple[str, ...]:
@@ -207,3 +225,30 @@ def settled(one: LawFit, points: int, enough: float) -> LawFit:
 def ended(one: LawFit) -> LawFit:
     """Continue to the end of the search with the smoothness held."""
     return replace(one, fit=advance(one.fit, GaussNewton().max_iterations))
+
+
+def together(laws: Sequence[LawFit], points: int, enough: float) -> list[LawFit]:
+    """Laws at different places, each refitted in turn while the others are held, until that gains less than `enough`
+    nats. The last one was learned beside the others, so its model has the terms of all.
+
+    Source: Buja, Hastie and Tibshirani 1989, Annals of Statistics 17:453: backfitting.
+    """
+    fits, newest, space = list(laws), laws[-1], laws[0].model.present.candidate.space
+    for _ in range(_ROUNDS):
+        cost = newest.cost
+        for k, one in enumerate(fits):
+            fixed = dict(space.fixed)
+            for other in (*fits[:k], *fits[k + 1 :]):
+                fixed |= other.numbers
+            problem = replace(newest.model.problem, space=replace(space, fixed=fixed))
+            present = replace(newest.fit, candidate=replace(newest.fit.candidate, problem=problem))
+            model = LawModel(one.law.place, one.knots.size, present, newest.model.model, one.term.memory)
+            x = np.append(newest.fit.point.x[: space.size], one.fit.point.x[space.size :])
+            curve = one.found, one.knots, one.unit, one.smoothness
+            again = settled(started(model, *curve, x, newest.fit.simulation, newest.fit.point.carried), points, enough)
+            if not again.fit.good:
+                return fits
+            fits[k] = newest = again
+        if cost - newest.cost < enough:
+            break
+    return [*fits[:-1], ended(newest)]

@@ -17,7 +17,7 @@ from pysim.diagnosis.left import tone_rate
 from pysim.diagnosis.refit import FinalFit, Pairs, converged, left_out
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
-from pysim.effects.learned import TIME, Law, Place, Terms, curve_basis, places
+from pysim.effects.learned import TIME, Law, Place, Term, curve_basis, places
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput
 from pysim.types.answer import GainTest, Verdict
@@ -69,6 +69,7 @@ class Learner:
         tried: number of effects tried before, for the Bonferroni correction.
         veto: see Veto.
         say: called with what is being done.
+        beside: laws that the model has already, held; a slot takes one.
     """
 
     def __init__(
@@ -80,11 +81,13 @@ class Learner:
         veto: Veto,
         say: Say,
         settings: LearnSettings | None = None,
+        beside: Sequence[LawFit] = (),
     ) -> None:
         assert session.build_law is not None
         self._compile = session.build_law
         self._session, self._present, self._floors, self._tried = session, present, floors.sd, tried
         self._veto, self._say, self._settings = veto, say, settings or LearnSettings()
+        self._beside = tuple(beside)
         self._refused: dict[str, str] = {}
         self._rough = floors.roughest(present, session.settings.fine)
 
@@ -92,9 +95,12 @@ class Learner:
         """Screen all laws, refit the best ones, and test the winner."""
         if not self._rough.good:
             return Learning(self._present, ())
-        where = places(self._session.slots, self._session.model)
+        taken = {one.law.place for one in self._beside}
+        where = [one for one in places(self._session.slots, self._session.model) if one not in taken]
         self._say("compiling laws")
         models = {place.key: model for place in where if (model := self._model(place, self._settings.knots))}
+        if not models:
+            return Learning(self._present, (), refused=self._refused)
         signals = seen(self._present, self._present.candidate.model, [one.place for one in models.values()])
         laws = distinct([one.place for one in models.values()], signals) if signals else []
         clock = self._session.has_clock and self._present.candidate.transient
@@ -123,8 +129,9 @@ class Learner:
         )
 
     def _model(self, place: Place, count: int, *, memory: bool = False) -> LawModel | None:
+        terms = [*(one.term for one in self._beside), Term(place, count, memory)]
         try:
-            model = self._compile(self._present.candidate.effects, Terms((place,), count, memory))
+            model = self._compile(self._present.candidate.effects, terms)
         except BadInput as error:
             self._refused[place.name] = str(error)
             return None

@@ -20,7 +20,7 @@ from pysim.diagnosis.learn.screening import LawModel
 from pysim.diagnosis.refit import FinalFit, begin
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
-from pysim.effects.learned import Law, Terms
+from pysim.effects.learned import Law
 from pysim.identify.greybox import Nuisance
 from pysim.types import BadInput, Effect
 from pysim.types.answer import GainTest
@@ -86,14 +86,14 @@ def _without(
     nuisances = [one for one in law.fit.candidate.nuisances if one is not part]
     values = dict(_kept(law, part))
     try:
-        candidate, terms = alone(effects, nuisances), Terms((law.law.place,), law.knots.size, bool(law.law.free))
+        candidate = alone(effects, nuisances)
         present = begin(candidate, values, law.fit.simulation, law.fit)
         if not present.good:
             return None
-        model = session.build_law(effects, terms)
+        model = session.build_law(effects, [law.term])
     except BadInput:
         return None
-    made = LawModel(law.law.place, law.knots.size, present, model, terms.memory)
+    made = LawModel(law.law.place, law.knots.size, present, model, law.term.memory)
     x = np.append(candidate.at(values), law.fit.point.x[-len(law.own) :])
     found = started(made, law.law, law.knots, law.unit, law.smoothness, x, law.fit.simulation)
     return ended(settled(found, settings.heat, session.settings.least_gain)) if found.fit.good else None

@@ -5,7 +5,7 @@ from pysim.effects.learned.curve import curve_basis, widths
 from pysim.effects.learned.formula import SHAPES, Formula, Shape, formulas
 from pysim.effects.learned.laws import Law, laws_at
 from pysim.effects.learned.places import TIME, Place, places
-from pysim.effects.learned.terms import Terms, wrapped
+from pysim.effects.learned.terms import Term, wrapped
 
 __all__ = [
     "SHAPES",
@@ -14,7 +14,7 @@ __all__ = [
     "Law",
     "Place",
     "Shape",
-    "Terms",
+    "Term",
     "curve_basis",
     "formulas",
     "laws_at",

@@ -186,7 +186,8 @@ def _laws(diagnosis: Diagnosis) -> Iterator[str]:
     for law in diagnosis.laws[:_ROWS]:
         formula = f"  {formula_text(law.formula, str(law.factor), law.unit)}".rstrip()
         yield f"  {law.slot}: {law_kind(law)} over {law.argument}, {share_text(law.share)} of the misfit{formula}"
-    yield from _curve(diagnosis.laws[0])
+    for law in diagnosis.likeliest:
+        yield from _curve(law)
 
 
 def _curve(law: LearnedLaw) -> Iterator[str]:

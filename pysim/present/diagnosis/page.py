@@ -105,9 +105,9 @@ def _laws(diagnosis: Diagnosis) -> list[str]:
         formula = formula_text(one.formula, str(one.factor), one.unit) or "none found"
         rows.append([one.slot, law_kind(one), one.argument, share_text(one.share), formula])
     head = ["place", "what", "depends on", "of the misfit", "formula"]
-    classes = [law.modelica for law in diagnosis.laws[:1] if law.modelica]
-    first = law_sentence(diagnosis.laws[0])
-    return [paragraph(first), table("The best law at each place", head, rows, words=[1, 4]), *map(commands, classes)]
+    classes = [law.modelica for law in diagnosis.likeliest if law.modelica]
+    said = map(paragraph, map(law_sentence, diagnosis.likeliest))
+    return [*said, table("The best law at each place", head, rows, words=[1, 4]), *map(commands, classes)]
 
 
 def _signals(diagnosis: Diagnosis) -> str:

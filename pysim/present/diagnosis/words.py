@@ -64,7 +64,7 @@ def _on_logs(use: str) -> str:
 
 def verdict_sentence(diagnosis: Diagnosis) -> str:
     """The answer, with what it does to the error, and what is left."""
-    laws = [law_sentence(diagnosis.laws[0])] if diagnosis.laws else []
+    laws = list(map(law_sentence, diagnosis.likeliest))
     if diagnosis.verdict == NONE:
         return f"Nothing is missing: the refitted model explains the measurements. {_left(diagnosis)}"
     if diagnosis.verdict == UNKNOWN:
@@ -162,12 +162,12 @@ def candidates_shown(diagnosis: Diagnosis) -> list[Rival]:
 
 
 def learned_sentence(diagnosis: Diagnosis) -> str:
-    """Where a law is missing most likely, and what it looks like; the next places behind."""
+    """Where laws are missing most likely, and what they look like; the next places behind."""
     if not diagnosis.laws:
         return _nowhere(diagnosis)
-    first, *others = diagnosis.laws
-    rest = [f"{one.slot} {share_text(one.share)}" for one in others[:3]]
-    return " ".join([law_sentence(first), *([f"Other places: {', '.join(rest)}."] if rest else [])])
+    first = diagnosis.likeliest
+    rest = [f"{one.slot} {share_text(one.share)}" for one in diagnosis.laws[len(first) :][:3]]
+    return " ".join([*map(law_sentence, first), *([f"Other places: {', '.join(rest)}."] if rest else [])])
 
 
 # A step of the diagnosis -> what it asks, and what answers that. All others ask which effect is missing.

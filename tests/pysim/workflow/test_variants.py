@@ -12,7 +12,7 @@ from pysim.types import BadInput, EffectParameter
 from pysim.workflow import Variants
 from tests.toy import CATALOGUE, library, with_term
 
-LAW = SimpleNamespace(slot="force", text="", probes=())
+LAW = SimpleNamespace(declarations=[], equations=[], probes=())
 
 
 @pytest.mark.parametrize("error", [CompilerError("linux: the C compiler failed."), fmu_build.BuildError("too much")])
@@ -30,7 +30,7 @@ def test_what_does_not_compile_is_refused(error: Exception, monkeypatch: pytest.
             variants.build([CATALOGUE["toy.friction"]])
     assert len(asked) == 2
     with pytest.raises(BadInput, match=str(error)):
-        variants.probed([], LAW)
+        variants.probed([], [LAW])
 
 
 def test_each_is_built_once_and_says_where_its_parameters_are() -> None:

@@ -7,7 +7,7 @@ from scipy.integrate import solve_ivp
 from pysim.diagnosis.learn.screening import distinct
 from pysim.effects import Slot
 from pysim.effects.law_units import quotient
-from pysim.effects.learned import Law, Terms, curve_basis, laws_at, places
+from pysim.effects.learned import Law, Term, curve_basis, laws_at, places
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Signal
 from pysim.types.factor import Form
@@ -52,7 +52,7 @@ def test_the_compiled_term_is_the_curve_times_its_factor(form: Form) -> None:
     (place,) = places(own.slots, own.build(())[0])
     by = 1 if form in (Form.VARIABLE, Form.SIGN, Form.BRISTLE) else None
     law = Law(place, 0, form, by, 0.05, 9.0)
-    model = own.probed((), Terms((place,), KNOTS.size, bool(law.free)))
+    model = own.probed((), [Term(place, KNOTS.size, bool(law.free))])
     values = dict(zip(place.coefficients(KNOTS.size), (c / 2).tolist(), strict=True))
     times = np.linspace(0, 4, 81)
     run = Experiment(times, ("x",), {"F": Signal.constant(6.0)})
