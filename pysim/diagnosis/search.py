@@ -482,7 +482,8 @@ class Search:
     def vetoed(self, smaller: FinalFit, larger: FinalFit, test: GainTest, without: Pairs = ()) -> GainTest:
         """Check a gain on validation logs and left-out blocks: VETOED if either error grows by more than chance.
         What brings a misfit down to the noise is not vetoed by left-out blocks: one of them may alone tell its size.
-        A law is vetoed too if an effect that was refitted beside the smaller model predicts validation logs better.
+        A law has to lower the error of the validation logs, as its curve may bend anywhere, and no effect that was
+        refitted beside the smaller model may predict them better.
 
         Args:
             without: both models refitted without some logs, which validate them in place of validation logs.
@@ -495,7 +496,8 @@ class Search:
         vetoed = seen and after - before > rivals.reach(own, other, self.settings.tie)
         vetoed = vetoed and (self.is_done(smaller) or not self.is_done(larger))
         if held := self._held_out(without or [(smaller, larger)]):
-            test, vetoed = replace(test, held_out=held[0]), vetoed or held[0] > held[1]
+            chance = 0.0 if larger.candidate.law else held[1]
+            test, vetoed = replace(test, held_out=held[0]), vetoed or held[0] > chance
         table = self._tables.get(frozenset(smaller.candidate.labels)) if larger.candidate.law else None
         rises = [self._held_out([(one.fit, larger)]) for one in (table.rivals if table else ()) if one.fit.ended]
         vetoed |= any(rise is not None and rise[0] > rise[1] for rise in rises)

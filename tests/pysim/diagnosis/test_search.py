@@ -72,17 +72,36 @@ def test_a_model_that_cannot_run_through_the_choosing_logs_is_vetoed() -> None:
     assert search._held_out([(base, frail), (frail, base)]) == (math.inf, 0.0)
 
 
-def test_a_law_is_vetoed_where_an_effect_predicts_the_choosing_logs_better() -> None:
+@cache
+def hardened() -> tuple[Search, FinalFit, FinalFit]:
+    """The model refitted without and with the effect that the plant has."""
     data = measured("mass", {"mass.hardening": {"k_3": 200.0}}, fit=(1,), validate=(2,))
     models = Models(given("mass", data, ["mass.hardening"], initial="rest"))
     search = Search(models, FINE, Settings(), Progress(lambda told: None), Checkpoint(None, ""))
-    base, effect = refitted(models), refitted(models, "mass.hardening", values={("mass.hardening", "k_3"): 100.0})
+    return search, refitted(models), refitted(models, "mass.hardening", values={("mass.hardening", "k_3"): 100.0})
+
+
+def test_a_law_is_vetoed_where_an_effect_predicts_the_choosing_logs_better(monkeypatch: pytest.MonkeyPatch) -> None:
+    search, base, effect = hardened()
     law = replace(base, candidate=replace(base.candidate, law="a law that does nothing"))
     test = search.test(base, effect)
     assert search.vetoed(base, law, test).verdict is Verdict.BETTER
-    search._tables[frozenset()] = Table((), 0.0, (Compared(effect, "mass.hardening", test),), ())
+    tables = {frozenset[str](): Table((), 0.0, (Compared(effect, "mass.hardening", test),), ())}
+    monkeypatch.setattr(search, "_tables", tables)
     assert search.vetoed(base, law, test).verdict is Verdict.VETOED
     assert search.vetoed(base, effect, test).verdict is Verdict.BETTER
+
+
+@pytest.mark.parametrize(("rise", "of_a_law"), [(-1.0, Verdict.BETTER), (1.0, Verdict.VETOED)])
+def test_a_rise_that_chance_may_bring_vetoes_a_law_and_no_effect(
+    rise: float, of_a_law: Verdict, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """One stretch of a log, where a curve bends, can hold all of the rise; between stretches it is chance then."""
+    search, base, effect = hardened()
+    test, law = search.test(base, effect), replace(effect, candidate=replace(effect.candidate, law="a law"))
+    monkeypatch.setattr(search, "_held_out", lambda pairs: (rise, 10.0))
+    assert search.vetoed(base, effect, test).verdict is Verdict.BETTER
+    assert search.vetoed(base, law, test).verdict is of_a_law
 
 
 def test_the_choosing_logs_say_by_how_much_their_cost_rises_as_far_as_parameters_are_open() -> None:
