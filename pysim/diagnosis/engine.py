@@ -25,7 +25,7 @@ from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput, Effect, NextTest, Note, NoteCode
-from pysim.types.answer import PRIOR, REFIT, Diagnosis, ErrorStep, LearnedLaw, Left
+from pysim.types.answer import PRIOR, REFIT, Diagnosis, ErrorStep, LearnedLaw, Left, Verdict
 
 Named = Sequence[tuple[str, FinalFit]]  # steps of the error history: name and model
 
@@ -184,7 +184,8 @@ def _answer(
         learns: when to learn a law beside the final model.
     """
     search.say.doing("counting what is left")
-    final = _alone(found.final, search) if found.final.names else found.final
+    found = _in_true_form(found, search, keep=bool(models))
+    final = found.final
     if refitted:
         final = integrated(final, session.settings.refinements)
     found = replace(found, base=found.base if found.final.names else final, final=final)
@@ -292,7 +293,7 @@ def _another(session: Session, search: Search, found: Found, laws: list[Learning
     scale = floors.avoidable(more.present) / max(floors.avoidable(laws[0].present), 1e-9)
     more = replace(more, shares=tuple(scale * share for share in more.shares))
     search.say.doing("refitting all laws")
-    again = together([*fits, more.fits[0]], LearnSettings().heat, session.settings.least_gain)
+    again = together([*fits, more.fits[0]], session.settings.least_gain)
     return [replace(one, fits=(fit, *one.fits[1:])) for one, fit in zip([*laws, more], again, strict=True)]
 
 
@@ -319,6 +320,24 @@ def _next_test(session: Session, found: Found) -> tuple[NextTest | None, list[No
         return next_test(session, step.model, rival), []
     except BadInput as error:  # these tests have no log over time, or not one command
         return None, [Note(NoteCode.NO_NEXT_TEST, {"reason": str(error)})]
+
+
+def _in_true_form(found: Found, search: Search, *, keep: bool) -> Found:
+    """The result with the true forms of its effects, without those that pass their test in their smooth form alone.
+
+    Args:
+        keep: whether all effects stay, as they were asked for.
+    """
+    if not found.final.names:
+        return found
+    final = _alone(found.final, search)
+    for effect in [] if keep else [one for one in final.candidate.effects if one.smooth]:
+        smaller = search.without(found.final, effect.name)
+        if search.test(smaller, final).verdict is not Verdict.BETTER:
+            losses = {label: loss for label, loss in found.losses.items() if label != effect.name}
+            smaller = smaller if smaller.names else found.base
+            return _in_true_form(replace(found, final=smaller, losses=losses, more=True), search, keep=keep)
+    return replace(found, final=final)
 
 
 def _alone(fit: FinalFit, search: Search, *, transient: bool = False) -> FinalFit:

@@ -322,7 +322,7 @@ class Search:
             model = best.fit if best.fit.ended else converged(best.fit)
             for j in reversed(range(k, len(steps) if best.fit is not present else k)):
                 steps[j] = replace(steps[j], model=self._keep(model))
-                model = self._without(model, steps[j].added) if j > k else model
+                model = self.without(model, steps[j].added) if j > k else model
         return steps
 
     def _in_place(self, present: FinalFit, name: str, rival: Compared) -> FinalFit:
@@ -458,7 +458,7 @@ class Search:
             if losses[worst].verdict is Verdict.BETTER:
                 break
             more |= losses[worst].verdict is Verdict.VETOED
-            final = self._without(final, worst)
+            final = self.without(final, worst)
         if not final.names:
             return Found(base, base, tuple(steps), self.floors, {}, undecidable, more)
         return Found(base, final, tuple(steps), self.floors, losses, undecidable, more)
@@ -471,7 +471,7 @@ class Search:
         known = self._fits.get((labels - {name}, transient))
         if known is not None and (test := self.test(known, final, choices)).verdict is not Verdict.BETTER:
             return test  # another refit can only make the loss smaller
-        smaller = self._without(final, name)
+        smaller = self.without(final, name)
         test = self.test(smaller, final, choices)
         if test.verdict is not Verdict.BETTER:
             return test
@@ -533,7 +533,7 @@ class Search:
             known = self._unfitted[key] = fit, rows, point.cost
         return known[1:]
 
-    def _without(self, fit: FinalFit, label: str) -> FinalFit:
+    def without(self, fit: FinalFit, label: str) -> FinalFit:
         """The model without one effect or sensor error, refitted from the values of the larger model.
         Returns the better of this refit and an earlier one, which may have ended in another local minimum."""
         parts = [part for own, part in fit.candidate.parts.items() if own != label]

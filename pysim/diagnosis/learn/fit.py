@@ -12,10 +12,11 @@ from pysim.diagnosis import refit
 from pysim.diagnosis.candidate import Candidate
 from pysim.diagnosis.learn.basis import Smoothness, lines, missed
 from pysim.diagnosis.learn.products import Products
-from pysim.diagnosis.learn.screening import LawModel, Ranked
+from pysim.diagnosis.learn.screening import LawModel, Ranked, with_law
 from pysim.diagnosis.refit import FinalFit, advance, exact
 from pysim.effects.learned import Law, Term
 from pysim.identify.greybox import GaussNewton, Point, Simulation
+from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.residuals import Carried, with_rows
 from pysim.types import Estimate
 
@@ -133,13 +134,14 @@ class LawFit:
         return bool(np.any(missed(self.knots, self.values) > np.maximum(sd[1:], sd[:-1])))
 
 
-def penalised(point: Point, smoothness: Smoothness) -> Point:
-    """The point with the prior of its last variables, the coefficients, as further rows of the residual."""
+def penalised(point: Point, smoothness: Smoothness, end: int | None = None) -> Point:
+    """The point with the prior of the coefficients, its variables up to `end`, as further rows of the residual."""
     if not point.good:
         return point
-    rows = smoothness.rows
-    slopes = np.hstack([np.zeros((len(rows), point.x.size - rows.shape[1])), rows])
-    return with_rows(point, rows @ point.x[-rows.shape[1] :], slopes, 0)
+    rows, end = smoothness.rows, point.x.size if end is None else end
+    own, slopes = slice(end - rows.shape[1], end), np.zeros((len(rows), point.x.size))
+    slopes[:, own] = rows
+    return with_rows(point, rows @ point.x[own], slopes, 0)
 
 
 def begun(model: LawModel, ranked: Ranked, simulation: Simulation) -> LawFit:
@@ -227,28 +229,52 @@ def ended(one: LawFit) -> LawFit:
     return replace(one, fit=advance(one.fit, GaussNewton().max_iterations))
 
 
-def together(laws: Sequence[LawFit], points: int, enough: float) -> list[LawFit]:
-    """Laws at different places, each refitted in turn while the others are held, until that gains less than `enough`
-    nats. The last one was learned beside the others, so its model has the terms of all.
+def together(laws: Sequence[LawFit], enough: float) -> list[LawFit]:
+    """Laws at different places, refitted at once; each of the answer holds the others.
 
-    Source: Buja, Hastie and Tibshirani 1989, Annals of Statistics 17:453: backfitting.
+    Args:
+        laws: the last one was learned beside the others, so its model has the terms of all.
+        enough: nats; the search ends where all of it and the update of the smoothness gain less.
     """
     fits, newest, space = list(laws), laws[-1], laws[0].model.present.candidate.space
     for _ in range(_ROUNDS):
-        cost = newest.cost
-        for k, one in enumerate(fits):
-            fixed = dict(space.fixed)
-            for other in (*fits[:k], *fits[k + 1 :]):
-                fixed |= other.numbers
-            problem = replace(newest.model.problem, space=replace(space, fixed=fixed))
-            present = replace(newest.fit, candidate=replace(newest.fit.candidate, problem=problem))
-            model = LawModel(one.law.place, one.knots.size, present, newest.model.model, one.term.memory)
-            x = np.append(newest.fit.point.x[: space.size], one.fit.point.x[space.size :])
-            curve = one.found, one.knots, one.unit, one.smoothness
-            again = settled(started(model, *curve, x, newest.fit.simulation, newest.fit.point.carried), points, enough)
-            if not again.fit.good:
-                return fits
-            fits[k] = newest = again
-        if cost - newest.cost < enough:
+        joint, before = advance(_joint(fits, newest, space), GaussNewton().max_iterations), fits
+        if not joint.good:
             break
-    return [*fits[:-1], ended(newest)]
+        values = joint.candidate.values(joint.point.x)
+        numbers = [one.law.settings(one.knots, one.unit) | {name: values[name] for name in one.own} for one in fits]
+        ends = np.cumsum([space.size, *(len(one.own) for one in fits)])
+        fits = []
+        for k, one in enumerate(before):
+            fixed = dict(space.fixed)
+            for own in (*numbers[:k], *numbers[k + 1 :]):
+                fixed |= own
+            held = replace(joint.candidate.problem, space=replace(space, fixed=fixed))
+            present = replace(joint, candidate=replace(joint.candidate, problem=held))
+            model = LawModel(one.law.place, one.knots.size, present, newest.model.model, one.term.memory)
+            x = np.append(joint.point.x[: space.size], joint.point.x[ends[k] : ends[k + 1]])
+            curve = one.found, one.knots, one.unit, one.smoothness.moved(one.gram, one.values)
+            fits.append(started(model, *curve, x, joint.simulation, joint.point.carried))
+        gained = before[-1].fit.point.cost - fits[-1].fit.point.cost
+        if gained < enough and all(abs(a.edf - b.edf) < _SETTLED for a, b in zip(fits, before, strict=True)):
+            break
+    return fits
+
+
+def _joint(laws: Sequence[LawFit], newest: LawFit, space: ParameterSpace) -> FinalFit:
+    """Begin a search for the numbers of all laws, behind the model's free parameters `space`, at the newest fit."""
+    x, wide, ends = newest.fit.point.x[: space.size], space, list[int]()
+    for one in laws:
+        x = np.append(x, one.fit.point.x[space.size :])
+        wide, ends = with_law(wide, one.found, one.law.free, one.knots, one.unit), [*ends, x.size]
+    problem = replace(newest.model.problem, space=wide)
+    candidate = replace(newest.fit.candidate, problem=problem, precision=None)
+    without = exact(candidate, newest.fit.simulation)
+
+    def evaluate(x: Array, carried: Carried) -> Point:
+        point = without(x, carried)
+        for one, end in zip(laws, ends, strict=True):
+            point = penalised(point, one.smoothness, end)
+        return point
+
+    return refit.begun(candidate, evaluate(x, newest.fit.point.carried), newest.fit.simulation, evaluate)

@@ -124,14 +124,13 @@ class LawModel:
         """
         own = self.present.candidate
         base = own.space if free else own.held(self.present.values)
-        first, names = law.free if free else (), self.place.coefficients(k.size)
-        space = _with_law(base, law, first, names, law.settings(k, unit))
+        space = with_law(base, law, law.free if free else (), k, unit)
         return replace(own, problem=replace(self.problem, space=space))
 
 
-def _with_law(
-    base: ParameterSpace, law: Law, first: Sequence[str], names: Sequence[str], settings: Mapping[str, float]
-) -> ParameterSpace:
+def with_law(base: ParameterSpace, law: Law, first: Sequence[str], k: Array, unit: float) -> ParameterSpace:
+    """The space with a law's numbers behind: those named `first`, and the coefficients over `unit` at the knots k."""
+    names, settings = law.place.coefficients(k.size), law.settings(k, unit)
     own, far, is_length = (*first, *names), np.full(len(names), math.inf), law.form is Form.BRISTLE
     low = 0.0 if is_length else -math.inf
     return ParameterSpace(

@@ -1,6 +1,7 @@
-"""Logs whose outputs lack samples: nothing is compared there, and what is missing in the model is named as without."""
+"""What is missing in the model is named as without where outputs lack samples, and only if its true form is better."""
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -9,7 +10,12 @@ from pysim.diagnosis import diagnose
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.floors import logs, white_floors
 from pysim.diagnosis.left import follows, tone
+from pysim.diagnosis.session import session
+from pysim.effects import read_catalogue
 from pysim.types import Dataset, Record
+from pysim.types.answer import Verdict
+from pysim.workflow.variants import Variants
+from tests.known_answers.plants import PLANTS
 from tests.pysim.diagnosis.plants import given, measured, refitted
 
 LACKING = 0.2  # of the samples
@@ -37,6 +43,38 @@ def test_what_is_named_is_what_is_named_without() -> None:
         assert 0.5 < own.std / expected.std * np.sqrt(1 - LACKING) < 2  # both are from a few blocks
     assert less.history[-1].fit == pytest.approx(1.0, abs=0.1)
     assert less.failures[0].error == pytest.approx(whole.failures[0].error, rel=0.25)
+
+
+ODD = """
+package Odd
+  model Rub "Friction that its true form does not have"
+    extends Mass.PartialForce;
+    parameter Real F(unit="N", min=0, max=5, nominal=0.5) = 0 "0 = off";
+  equation
+    f = 0.01*F*x;
+    annotation(__HydraulicTestBench(effect="odd.rub", slot="force"));
+  end Rub;
+  model Smooth "Friction"
+    extends Mass.PartialForce;
+    parameter Real F(unit="N", min=0, max=5, nominal=0.5) = 0 "0 = off";
+  equation
+    f = -F*tanh(v/0.02);
+    annotation(__HydraulicTestBench(smooth="odd.rub", slot="force"));
+  end Smooth;
+end Odd;
+"""
+
+
+def test_an_effect_is_named_only_if_its_true_form_passes_the_test_too(tmp_path: Path) -> None:
+    library = tmp_path / "Odd.mo"
+    library.write_text(ODD, encoding="utf-8")
+    own = Variants(PLANTS["mass"].model, (PLANTS["mass"].library, library))
+    data = measured("mass", {"mass.friction": {"F_c": 0.5}})
+    found = diagnose(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
+    assert found.rivals[0].test is not None
+    assert found.rivals[0].test.verdict is Verdict.BETTER  # in its smooth form
+    assert (found.effects, found.complete, found.verdict) == ((), False, "unknown")
+    assert [step.step for step in found.history] == ["prior", "refit"]
 
 
 def test_noise_that_lacks_samples_follows_nothing_and_has_no_tone() -> None:

@@ -5,19 +5,16 @@ from functools import cache
 from pathlib import Path
 
 import numpy as np
-import pytest
 from scipy.integrate import solve_ivp
 
 from pysim.diagnosis import Session, diagnose, learn, session
 from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, NoteCode, Record, answer_data
 from pysim.types.answer import Diagnosis, Verdict
 from pysim.types.record_kind import Command
-from pysim.workflow.learned import with_classes, with_laws
 from pysim.workflow.variants import Variants
 from tests.known_answers.plants import Values
 from tests.pysim.diagnosis.learn.clocked import DESIGN, on_a_clock, within_the_band
-from tests.pysim.diagnosis.plants import given, measured, variants
-from validation.held_out import held_out_rms
+from tests.pysim.diagnosis.plants import given, measured
 
 
 def opened(effects: dict[str, Values], names: list[str] | None = None) -> Session:
@@ -62,40 +59,6 @@ def test_the_error_on_logs_that_were_not_fitted_falls_to_the_noise() -> None:
     assert after == found.history[-1].validate < 1.1
     assert before is not None
     assert before > 4
-
-
-@cache
-def worn() -> tuple[Dataset, Diagnosis]:
-    """An axis whose guideway brakes towards its ends, and whose amplifier has a dead band; no effect is at hand."""
-    effects = {"damper": {"d_2": 1e4}, "axis.dead_band": {"u_0": 0.1}}
-    own = {"m": 10.5, "d": 90.0, "K": 20.5, "T": 0.021, "K_v": 50.0}
-    data = measured("axis", effects, own, fit=(1,), validate=(3,))
-    return data, diagnose(given("axis", data, [], initial="near rest"))
-
-
-def test_a_second_law_is_learned_beside_the_first_and_both_are_refitted() -> None:
-    _, found = worn()
-    assert [law.slot for law in found.learned] == ["guideway", "amplifier"]
-    (damping, voltage), steps = found.learned, found.history
-    assert (str(damping.factor), damping.argument, str(voltage.factor)) == ("v", "guideway.x", "sign(u)")
-    assert within_the_band(damping, -1e4 * damping.knots**2) > 0.8
-    errors = [step.validate for step in steps[1:]]
-    assert [law.held_out for law in found.learned] == [(errors[0], errors[1]), (errors[1], errors[2])]
-    assert errors[0] > 2 * errors[1] > 4 * errors[2]
-    assert [*found.missing[:2]] == [*found.learned]
-    curves = {f"law{k}_c" for k in range(9)}
-    assert not {one.name for step in steps for one in step.estimates if one.name.startswith(tuple(curves))}
-
-
-def test_the_classes_of_both_laws_leave_what_the_answer_says(tmp_path: Path) -> None:
-    (data, found), own = worn(), variants("axis")
-    effects, wider = with_laws(with_classes(found, own.class_name, own.libraries), own, tmp_path)
-    model, _ = wider.build(effects)
-    assert {"guideway.c[1]", "amplifier.c[1]"} <= {one.name for one in model.variables}
-    left = held_out_rms(model, data, {one.name: one.value for one in found.estimates}, "validate")
-    floors = {name.rpartition("/")[2]: floor.sd for name, floor in found.left.floors.items()}
-    error = np.sqrt(np.mean([(size / floors[name]) ** 2 for name, size in left.items()]))
-    assert error == pytest.approx(found.history[-1].validate, rel=0.01)
 
 
 def test_what_drifts_is_learned_over_time_where_the_logs_say_when_they_began() -> None:
