@@ -111,7 +111,7 @@ class Learner:
         if not fits or self._share(fits[0]) < 1 - self._settings.least:
             others, more = self._with_memory([law for law in laws if not law.place.sides[0].output_rate], signals)
             ranked, laws = sorted([*ranked, *more], key=lambda one: -one.score), [*laws, *(one.law for one in more)]
-            fits = sorted([*fits, *self._raced(others, more, ranked)], key=self._scored)
+            fits = self._ordered([*fits, *self._raced(others, more, ranked)])
         if not fits:
             return Learning(self._present, tuple(ranked), refused=self._refused)
         self._say(f"refitting {fits[0].law.label}")
@@ -167,15 +167,25 @@ class Learner:
             fit = moved(begun(models[one.law.place.key], one, self._rough.simulation), self._settings.heat)
             if fit.fit.good and fit.cost < self._rough.point.cost:
                 running.append(fit)
-        running.sort(key=self._scored)
-        finalists = self._session.settings.finalists
+        running, finalists = self._ordered(running), self._session.settings.finalists
         further = [moved(fit, self._settings.heat) for fit in running[:finalists]]
-        return sorted([*(fit for fit in further if fit.fit.good), *running[finalists:]], key=self._scored)
+        return self._ordered([*(fit for fit in further if fit.fit.good), *running[finalists:]])
 
-    def _scored(self, one: LawFit) -> float:
+    def _ordered(self, fits: Sequence[LawFit]) -> list[LawFit]:
+        """The laws, the lowest penalised cost first; all count with one lambda, as effects do in `Search`."""
+        inflated = self._inflated(fits) if fits else 1.0
+        return sorted(fits, key=lambda one: self._scored(one, inflated))
+
+    def _inflated(self, fits: Sequence[LawFit]) -> float:
+        """Median lambda of the laws that gain much."""
+        gains = [self._rough.point.cost - one.cost for one in fits]
+        much = self._session.settings.promising * max(gains)
+        return float(np.median([self._colour(a, self._rough) for a, b in zip(fits, gains, strict=True) if b >= much]))
+
+    def _scored(self, one: LawFit, inflated: float) -> float:
         """Penalised cost relative to the present model, nats; the lowest is best."""
-        inflated, count = self._colour(one, self._rough), rivals.samples(self._rough)
-        return -rivals.penalised(self._rough.point.cost - one.cost, one.df, inflated, count)
+        gain, count = self._rough.point.cost - one.cost, rivals.samples(self._rough)
+        return -rivals.penalised(gain, one.df, inflated, count)
 
     @staticmethod
     def _colour(one: LawFit, present: FinalFit) -> float:
@@ -198,7 +208,8 @@ class Learner:
             smooth = replace(best.smoothness, knots=k)
             again = started(finer, best.law, k, best.unit, smooth, x, rough, best.fit.point.carried)
             again = settled(again, settings.heat, self._session.settings.least_gain)
-            if not again.fit.good or self._scored(again) >= self._scored(best):
+            inflated = self._inflated([best])
+            if not again.fit.good or self._scored(again, inflated) >= self._scored(best, inflated):
                 break
             best = again
         for simulation in self._finer(rough):
@@ -227,9 +238,10 @@ class Learner:
     def _ties(self, fits: Sequence[LawFit]) -> tuple[str, ...]:
         """Other places with a law that the data do not separate from the best one, after the rule of `Search`."""
         best, own, found = fits[0], rivals.of(fits[0].fit), dict[str, None]()
+        inflated = self._inflated(fits)
         for one in fits[1:]:
             reach = rivals.reach(own, rivals.of(one.fit), self._session.settings.tie)
-            if one.law.place != best.law.place and self._scored(one) - self._scored(best) < reach:
+            if one.law.place != best.law.place and self._scored(one, inflated) - self._scored(best, inflated) < reach:
                 found[one.law.place.name] = None
         return tuple(found)
 
