@@ -47,6 +47,7 @@ class Answer:
         effects: names of the catalogue's effects beside them.
         formula: of the first law; "" for none.
         place: whether all places are right and none is wrong; of a law that cannot be seen, whether nothing was added.
+        named: the same where an effect of the catalogue at a right place counts as a law there.
         variables: whether the laws at right places depend on the right variables; None where that is not asked.
         band: share of the first curve's range over which its 95 percent band holds the true curve; None where the true
             law is no curve of these variables.
@@ -63,6 +64,7 @@ class Answer:
     effects: tuple[str, ...] = ()
     formula: str = ""
     place: bool = False
+    named: bool = False
     variables: bool | None = None
     band: float | None = None
     before: float | None = None
@@ -79,7 +81,8 @@ class Answer:
             return f"{self.case}: {self.trouble}"
         found = ", ".join((*self.learned, *self.effects)) or "nothing"
         errors = " -> ".join("?" if one is None else f"{one:.2f}" for one in (self.before, self.after))
-        marks = f"{'right' if self.place else 'WRONG'} place, variables {_MARKS[self.variables]}"
+        place = "right" if self.place else "right by an effect's" if self.named else "WRONG"
+        marks = f"{place} place, variables {_MARKS[self.variables]}"
         band = "" if self.band is None else f", band {100 * self.band:.0f} %"
         formula = f", {self.formula}" if self.formula else ""
         return f"{self.case}: {found}; {marks}; error {errors}{band}{formula}; {self.seconds:.0f} s"
@@ -183,18 +186,21 @@ def error(step: Step, data: Dataset, use: str = "test") -> float | None:
     return float(np.sqrt(np.mean([(size / NOISE[name]) ** 2 for name, size in sizes.items()])))
 
 
-def _right(case: LearnedCase, learned: Sequence[LearnedLaw], effects: Sequence[Effect]) -> tuple[bool, bool | None]:
-    """Whether the places are right, and the variables of the laws there."""
-    at = {law.slot for law in learned}
-    places = case.kind.places
+def _right(
+    case: LearnedCase, learned: Sequence[LearnedLaw], effects: Sequence[Effect]
+) -> tuple[bool, bool, bool | None]:
+    """Whether the places are right by laws, or by laws and effects, and the variables of the laws there."""
+    at, places = {law.slot for law in learned}, case.kind.places
     if not places:
-        return not learned and not effects, None
-    allowed = {slot for some in places for slot in some}
-    place = all(at & set(some) for some in places) and at | {e.slot for e in effects} <= allowed
+        nothing = not learned and not effects
+        return nothing, nothing, None
+    every = at | {effect.slot for effect in effects}
+    clean = every <= {slot for some in places for slot in some}
+    place, named = (clean and all(own & set(some) for some in places) for own in (at, every))
     asked = [(some, words) for some, words in zip(places, case.kind.variables, strict=False) if words]
     if not asked:
-        return place, None
-    return place, all(any(law.slot in some and _fits(law, words) for law in learned) for some, words in asked)
+        return place, named, None
+    return place, named, all(any(law.slot in some and _fits(law, words) for law in learned) for some, words in asked)
 
 
 def _fits(law: LearnedLaw, words: Sequence[tuple[str, ...]]) -> bool:

@@ -53,6 +53,7 @@ def shares(answers: Sequence[Answer]) -> Iterator[Share]:
     bands = [one.band for one in visible if one.band is not None]
     near = sum(one.after is not None and 1 + one.after**2 <= NEAR**2 for one in visible)
     yield Share("right place, of visible laws", sum(one.place for one in visible), len(visible), (90, 100))
+    yield Share("right place, by a law or an effect of the catalogue", sum(one.named for one in visible), len(visible))
     yield Share("right variables there", sum(bool(one.variables) for one in asked), len(asked))
     yield Share(f"error at most {NEAR:g} times the noise, of visible laws", near, len(visible), (80, 100))
     yield Share("error higher than before by more than 1 percent", sum(map(_worse, answers)), len(answers), (0, 0))

@@ -8,7 +8,7 @@ import pytest
 
 from pysim.diagnosis import Session
 from pysim.effects.learned import curve_basis
-from pysim.types import Estimate
+from pysim.types import Effect, EffectParameter, Estimate
 from pysim.types.answer import Diagnosis, ErrorStep, LearnedLaw, Left
 from pysim.types.factor import Factor, Form
 from validation.blind.plant import BOUNDS
@@ -33,18 +33,22 @@ def law(case: LearnedCase, factor: Factor, argument: str, slot: str = "pistonFor
 def test_places_and_variables() -> None:
     case = NAMED["damping.position-large-1"]
     right = law(case, V, "pistonForce.x")
-    assert judge._right(case, [right], []) == (True, True)
-    assert judge._right(case, [law(case, V, "alpha_x")], []) == (True, False)
-    assert judge._right(case, [law(case, Factor(Form.VARIABLE, "x"), "v")], []) == (True, True)
-    assert judge._right(case, [right, replace(right, slot="supply")], []) == (False, True)
-    assert judge._right(case, [], []) == (False, False)
+    assert judge._right(case, [right], []) == (True, True, True)
+    assert judge._right(case, [law(case, V, "alpha_x")], []) == (True, True, False)
+    assert judge._right(case, [law(case, Factor(Form.VARIABLE, "x"), "v")], []) == (True, True, True)
+    assert judge._right(case, [right, replace(right, slot="supply")], []) == (False, False, True)
+    assert judge._right(case, [], []) == (False, False, False)
+    size = EffectParameter("F", "N", 0.0, 5.0, 1.0, 0.0, 0.0)
+    near, far = (Effect(slot, slot, "Lib.Class", (size,)) for slot in ("pistonForce", "supply"))
+    assert judge._right(case, [], [near]) == (False, True, False)
+    assert judge._right(case, [right], [near, far]) == (False, False, True)
     two = NAMED["two-large-2"]
     opening = replace(right, slot="spoolOpening", factor=Factor(), argument="spoolOpening.s")
-    assert judge._right(two, [opening, right], []) == (True, True)
-    assert judge._right(two, [right], []) == (False, False)
-    assert judge._right(NAMED["friction.dahl-large-1"], [right], []) == (True, None)
-    assert judge._right(NAMED["cushion.unreached-large-1"], [], []) == (True, None)
-    assert judge._right(NAMED["cushion.unreached-large-1"], [right], []) == (False, None)
+    assert judge._right(two, [opening, right], []) == (True, True, True)
+    assert judge._right(two, [right], []) == (False, False, False)
+    assert judge._right(NAMED["friction.dahl-large-1"], [right], []) == (True, True, None)
+    assert judge._right(NAMED["cushion.unreached-large-1"], [], []) == (True, True, None)
+    assert judge._right(NAMED["cushion.unreached-large-1"], [right], []) == (False, False, None)
 
 
 def test_the_band_is_asked_of_the_right_curve_alone() -> None:
