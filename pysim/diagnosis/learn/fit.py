@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+import math
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -234,47 +235,60 @@ def together(laws: Sequence[LawFit], enough: float) -> list[LawFit]:
 
     Args:
         laws: the last one was learned beside the others, so its model has the terms of all.
-        enough: nats; the search ends where all of it and the update of the smoothness gain less.
+        enough: nats; the search ends where a round with another smoothness gains less.
     """
-    fits, newest, space = list(laws), laws[-1], laws[0].model.present.candidate.space
+    model, space, cost = laws[-1].model, laws[0].model.present.candidate.space, math.inf
+    fits, smooth = list(laws), [one.smoothness for one in laws]
     for _ in range(_ROUNDS):
-        joint, before = advance(_joint(fits, newest, space), GaussNewton().max_iterations), fits
+        joint = advance(_joint(fits, smooth, model, space), GaussNewton().max_iterations)
         if not joint.good:
             break
         values = joint.candidate.values(joint.point.x)
         numbers = [one.law.settings(one.knots, one.unit) | {name: values[name] for name in one.own} for one in fits]
-        ends = np.cumsum([space.size, *(len(one.own) for one in fits)])
-        fits = []
-        for k, one in enumerate(before):
-            fixed = dict(space.fixed)
-            for own in (*numbers[:k], *numbers[k + 1 :]):
-                fixed |= own
-            held = replace(joint.candidate.problem, space=replace(space, fixed=fixed))
-            present = replace(joint, candidate=replace(joint.candidate, problem=held))
-            model = LawModel(one.law.place, one.knots.size, present, newest.model.model, one.term.memory)
-            x = np.append(joint.point.x[: space.size], joint.point.x[ends[k] : ends[k + 1]])
-            curve = one.found, one.knots, one.unit, one.smoothness.moved(one.gram, one.values)
-            fits.append(started(model, *curve, x, joint.simulation, joint.point.carried))
-        gained = before[-1].fit.point.cost - fits[-1].fit.point.cost
-        if gained < enough and all(abs(a.edf - b.edf) < _SETTLED for a, b in zip(fits, before, strict=True)):
+        others = [[own for own in numbers if own is not mine] for mine in numbers]
+        fits = [_beside(one, s, held, joint, model, space) for one, s, held in zip(fits, smooth, others, strict=True)]
+        smooth = [one.smoothness.moved(one.gram, one.values) for one in fits]
+        change = [abs(after.edf(one.gram) - one.edf) for one, after in zip(fits, smooth, strict=True)]
+        if cost - joint.point.cost < enough and max(change) < _SETTLED:
             break
+        cost = joint.point.cost
     return fits
 
 
-def _joint(laws: Sequence[LawFit], newest: LawFit, space: ParameterSpace) -> FinalFit:
-    """Begin a search for the numbers of all laws, behind the model's free parameters `space`, at the newest fit."""
-    x, wide, ends = newest.fit.point.x[: space.size], space, list[int]()
+def _joint(laws: Sequence[LawFit], smooth: Sequence[Smoothness], model: LawModel, space: ParameterSpace) -> FinalFit:
+    """Begin a search for the numbers of all laws, behind the model's free parameters `space`, at the last law's fit."""
+    start, ends = laws[-1].fit, list[int]()
+    x, wide = start.point.x[: space.size], space
     for one in laws:
         x = np.append(x, one.fit.point.x[space.size :])
         wide, ends = with_law(wide, one.found, one.law.free, one.knots, one.unit), [*ends, x.size]
-    problem = replace(newest.model.problem, space=wide)
-    candidate = replace(newest.fit.candidate, problem=problem, precision=None)
-    without = exact(candidate, newest.fit.simulation)
+    candidate = replace(start.candidate, problem=replace(model.problem, space=wide), precision=None)
+    without = exact(candidate, start.simulation)
 
     def evaluate(x: Array, carried: Carried) -> Point:
         point = without(x, carried)
-        for one, end in zip(laws, ends, strict=True):
-            point = penalised(point, one.smoothness, end)
+        for own, end in zip(smooth, ends, strict=True):
+            point = penalised(point, own, end)
         return point
 
-    return refit.begun(candidate, evaluate(x, newest.fit.point.carried), newest.fit.simulation, evaluate)
+    return refit.begun(candidate, evaluate(x, start.point.carried), start.simulation, evaluate)
+
+
+def _beside(
+    one: LawFit,
+    smooth: Smoothness,
+    others: Sequence[Mapping[str, float]],
+    joint: FinalFit,
+    model: LawModel,
+    space: ParameterSpace,
+) -> LawFit:
+    """A law at the values that a joint search found, the numbers of the others held."""
+    fixed = dict(space.fixed)
+    for own in others:
+        fixed |= own
+    candidate = replace(joint.candidate, problem=replace(model.problem, space=replace(space, fixed=fixed)))
+    values, m = joint.candidate.values(joint.point.x), one.knots.size
+    own_model = LawModel(one.law.place, m, replace(joint, candidate=candidate), model.model, one.term.memory)
+    law = replace(one.law, number=values[one.law.free[0]]) if one.law.free else one.law
+    at = own_model.candidate(law, one.knots, one.unit, free=True).at(values)
+    return started(own_model, law, one.knots, one.unit, smooth, at, joint.simulation, joint.point.carried)
