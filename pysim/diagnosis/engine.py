@@ -282,8 +282,10 @@ def _lacks_much(found: Found, account: _Account) -> bool:
 
 
 def _another(session: Session, search: Search, found: Found, laws: list[Learning]) -> list[Learning]:
-    """The laws and one more that is learned beside them, all refitted; the same laws if no more is found or allowed."""
-    if len(laws) + len(found.final.names) >= session.settings.max_effects:
+    """The laws and one more that is learned beside them, all refitted; the same laws if no more is found or allowed.
+    Where a single log is all there is, another law could not be contradicted."""
+    many = len(laws) + len(found.final.names) >= session.settings.max_effects
+    if many or len(session.dataset.logs()) < 2:
         return laws
     fits, floors = [one.fits[0] for one in laws], found.floors
     learner = Learner(session, fits[-1].held, floors, search.tried, search.vetoed, search.say.doing, beside=fits)

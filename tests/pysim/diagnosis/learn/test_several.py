@@ -16,11 +16,11 @@ from validation.held_out import held_out_rms
 
 
 @cache
-def worn() -> tuple[Dataset, Diagnosis]:
+def worn(choosing: int = 1) -> tuple[Dataset, Diagnosis]:
     """An axis whose guideway brakes towards its ends, and whose amplifier has a dead band; no effect is at hand."""
     effects = {"damper": {"d_2": 1e4}, "axis.dead_band": {"u_0": 0.1}}
     own = {"m": 10.5, "d": 90.0, "K": 20.5, "T": 0.021, "K_v": 50.0}
-    data = measured("axis", effects, own, fit=(1,), validate=(3,))
+    data = measured("axis", effects, own, fit=(1,), validate=(3,)[:choosing])
     return data, diagnose(given("axis", data, [], initial="near rest"))
 
 
@@ -47,3 +47,9 @@ def test_the_classes_of_both_laws_leave_what_the_answer_says(tmp_path: Path) -> 
     floors = {name.rpartition("/")[2]: floor.sd for name, floor in found.left.floors.items()}
     error = np.sqrt(np.mean([(size / floors[name]) ** 2 for name, size in left.items()]))
     assert error == pytest.approx(found.history[-1].validate, rel=0.01)
+
+
+def test_where_one_log_is_all_there_is_no_second_law_is_learned() -> None:
+    _, found = worn(choosing=0)
+    assert len(found.learned) == 1
+    assert not found.complete
