@@ -180,14 +180,19 @@ def test_a_law_of_constant_size_is_not_said_to_depend_on_anything() -> None:
     assert "depends" not in law_sentence(flat)
 
 
-def test_learned_laws_are_listed_by_place_and_share_with_the_curve_of_the_first() -> None:
+def test_learned_laws_are_listed_by_place_and_share_with_the_curves_of_those_that_were_added() -> None:
     other = replace(LAW, slot="supply", share=0.12)
-    found = nothing(complete=False, learned=(LAW, other))
-    assert [numbers(learned_sentence(found))[k] for k in (0, -1)] == [97.0, 12.0]
-    shown = text(found)
-    assert shown.index("force: force over v") < shown.index("supply: force over v")
-    (row,) = (line for line in shown.splitlines() if "v = 600 mm/s" in line)
-    assert "-0.4 N (-0.498 N to -0.302 N)" in row
+    for found, curves in (
+        (nothing(complete=False, learned=(LAW,), missing=(LAW, other)), 1),
+        (nothing(complete=False, learned=(LAW, other)), 2),
+    ):
+        said, shown = learned_sentence(found), text(found)
+        assert [value for value in numbers(said) if value in (97.0, 12.0)] == [97.0, 12.0]
+        assert ("Other places" in said) is (curves == 1)
+        assert shown.index("force: force over v") < shown.index("supply: force over v")
+        rows = [line for line in shown.splitlines() if "v = 600 mm/s" in line]
+        assert len(rows) == curves
+        assert all("-0.4 N (-0.498 N to -0.302 N)" in row for row in rows)
     slope = replace(LAW, absorbed=LAW.knots[:, None])  # any amount of it may be added without a trace in the data
     assert ABSORBED in text(nothing(learned=(slope,)))
     assert ABSORBED not in shown
