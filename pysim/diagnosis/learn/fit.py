@@ -19,7 +19,6 @@ from pysim.effects.learned import Law, Term
 from pysim.identify.greybox import GaussNewton, Point, Simulation
 from pysim.identify.greybox.parameters import ParameterSpace
 from pysim.identify.greybox.residuals import Carried, with_rows
-from pysim.types import Estimate
 
 Array = NDArray[np.float64]
 
@@ -84,10 +83,6 @@ class LawFit:
     def own(self) -> tuple[str, ...]:
         """Names of the law's free parameters: the factor's number, if it is refitted, then the coefficients."""
         return (*self.law.free, *self.law.place.coefficients(self.knots.size))
-
-    def of_the_model(self, estimates: Sequence[Estimate]) -> tuple[Estimate, ...]:
-        """The estimates without those of the law's own parameters."""
-        return tuple(one for one in estimates if one.name not in self.own)
 
     def without(self, sources: Collection[str]) -> LawFit:
         """Refitted with the smoothness held, without the observations of these sources."""

@@ -70,11 +70,15 @@ def measured(
 
 def stopped(folder: Path) -> tuple[Dataset, Models]:
     """Logs of a mass that has no ends, and the model that may have some; the library is written into a folder."""
-    library = folder / "Stops.mo"
-    library.write_text(STOPS, encoding="utf-8")
-    own, data = Variants(PLANTS["mass"].model, (PLANTS["mass"].library, library)), measured("mass", length=4.0)
-    effects = read_catalogue(library)
-    return data, Models(session(own.build(())[0], data, effects, own.build, initial="rest", workers=1))
+    data = measured("mass", length=4.0)
+    return data, Models(with_library(folder / "Stops.mo", STOPS, data))
+
+
+def with_library(file: Path, text: str, data: Dataset) -> Session:
+    """The mass as designed beside data, with the effects of a library that is written into a file."""
+    file.write_text(text, encoding="utf-8")
+    own = Variants(PLANTS["mass"].model, (PLANTS["mass"].library, file))
+    return session(own.build(())[0], data, read_catalogue(file), own.build, initial="rest", workers=1)
 
 
 def given(plant: str, data: Dataset, names: Sequence[str] | None = None, *, initial: str = "rest") -> Session:

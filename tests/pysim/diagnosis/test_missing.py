@@ -10,13 +10,9 @@ from pysim.diagnosis import diagnose
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.floors import logs, white_floors
 from pysim.diagnosis.left import follows, tone
-from pysim.diagnosis.session import session
-from pysim.effects import read_catalogue
 from pysim.types import Dataset, Record
 from pysim.types.answer import Verdict
-from pysim.workflow.variants import Variants
-from tests.known_answers.plants import PLANTS
-from tests.pysim.diagnosis.plants import given, measured, refitted
+from tests.pysim.diagnosis.plants import given, measured, refitted, with_library
 
 LACKING = 0.2  # of the samples
 
@@ -66,11 +62,7 @@ end Odd;
 
 
 def test_an_effect_is_named_only_if_its_true_form_passes_the_test_too(tmp_path: Path) -> None:
-    library = tmp_path / "Odd.mo"
-    library.write_text(ODD, encoding="utf-8")
-    own = Variants(PLANTS["mass"].model, (PLANTS["mass"].library, library))
-    data = measured("mass", {"mass.friction": {"F_c": 0.5}})
-    found = diagnose(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
+    found = diagnose(with_library(tmp_path / "Odd.mo", ODD, measured("mass", {"mass.friction": {"F_c": 0.5}})))
     assert found.rivals[0].test is not None
     assert found.rivals[0].test.verdict is Verdict.BETTER  # in its smooth form
     assert (found.effects, found.complete, found.verdict) == ((), False, "unknown")

@@ -16,14 +16,10 @@ from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.progress import Progress
 from pysim.diagnosis.refit import FinalFit, advance, begin, converged
 from pysim.diagnosis.search import Compared, Search, Step, Table
-from pysim.diagnosis.session import session
 from pysim.diagnosis.settings import Settings
-from pysim.effects import read_catalogue
 from pysim.types import MeasuredRecord, Record
 from pysim.types.answer import Verdict
-from pysim.workflow.variants import Variants
-from tests.known_answers.plants import PLANTS
-from tests.pysim.diagnosis.plants import FINE, given, measured, refitted
+from tests.pysim.diagnosis.plants import FINE, given, measured, refitted, with_library
 
 FRAIL = """
 package Frail
@@ -50,11 +46,9 @@ end Frail;
 def found(peak: float) -> tuple[Search, FinalFit, FinalFit]:
     """The base model and one that can be simulated in small tests alone; commands of the choosing log up to a peak."""
     library = Path(mkdtemp(prefix="frail-")) / "Frail.mo"
-    library.write_text(FRAIL, encoding="utf-8")
-    own = Variants("Mass.Design", (PLANTS["mass"].library, library))
     small, other = (measured("mass", {}, {"d": 2.5}, fit=(1,), length=4.0, peak=p) for p in (2.0, peak))
     data = replace(small, records=(small.records[0], other.records[1]))
-    models = Models(session(own.build(())[0], data, read_catalogue(library), own.build, initial="rest", workers=1))
+    models = Models(with_library(library, FRAIL, data))
     search = Search(models, FINE, Settings(), Progress(lambda told: None), Checkpoint(None, ""))
     base = refitted(models)
     search.floors = search.floors.with_(base)

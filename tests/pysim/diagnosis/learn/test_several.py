@@ -1,17 +1,23 @@
-"""Two laws that no catalogue holds, learned one after the other."""
+"""Several laws that no catalogue holds: learned one after the other, and the order of those that compete."""
 
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
-from pysim.diagnosis import diagnose
+from pysim.diagnosis import diagnose, rivals
+from pysim.diagnosis.candidate import Models
+from pysim.diagnosis.checkpoint import Checkpoint
+from pysim.diagnosis.learn.learn import Learner
+from pysim.diagnosis.progress import Progress
+from pysim.diagnosis.search import Search
 from pysim.types import Dataset
 from pysim.types.answer import Diagnosis
 from pysim.workflow.learned import with_classes, with_laws
 from tests.pysim.diagnosis.learn.clocked import within_the_band
-from tests.pysim.diagnosis.plants import given, measured, variants
+from tests.pysim.diagnosis.plants import FINE, given, measured, variants
 from validation.held_out import held_out_rms
 
 
@@ -53,3 +59,18 @@ def test_where_one_log_is_all_there_is_no_second_law_is_learned() -> None:
     _, found = worn(choosing=0)
     assert len(found.learned) == 1
     assert not found.complete
+
+
+def test_a_law_that_gains_little_is_not_first_for_a_smaller_lambda(monkeypatch: pytest.MonkeyPatch) -> None:
+    """By its own lambda each loses more by 13 coefficients than it gains, and the one that gains little less."""
+    opened = given("mass", measured("mass", fit=(1,)), [], initial="near rest")
+    search = Search(Models(opened), FINE, opened.settings, Progress(lambda told: None), Checkpoint(None, ""))
+    base = search.fit_base()
+    learner = Learner(opened, base, search.floors.with_(base), 1, search.vetoed, lambda said: None)
+    count, cost = rivals.samples(learner._rough), learner._rough.point.cost
+    much, little = (SimpleNamespace(cost=cost - gain, df=13.0) for gain in (2000.0, 130.0))
+    lambdas = {id(much): 400.0, id(little): 60.0}
+    monkeypatch.setattr(learner, "_colour", lambda one, present: lambdas[id(one)])
+    own = [-rivals.penalised(cost - one.cost, one.df, lambdas[id(one)], count) for one in (much, little)]
+    assert own[0] > own[1]
+    assert learner._ordered([little, much]) == [much, little]  # type: ignore[list-item]
