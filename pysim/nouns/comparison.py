@@ -31,8 +31,9 @@ def compare(*given: Any, initial: Initial = None, criteria: Criteria = None, pro
 
     Args:
         given: one model or several, then the measurements: `compare(before, after, data)`.
-        initial: of each log: "rest", "estimate", state -> value; None at states that were set, else as the data say,
-            else near rest. Initial states that are not given are estimated from the log itself.
+        initial: of each log: "rest", "estimate", state -> value; None at states that were set, else as the fit had it
+            that gave one of the models, else as the data say, else near rest. Initial states that are not given are
+            estimated from the log itself.
         criteria: "thesis" judges logs by thesis Table 1.4; column of the table -> limit judges by your own.
         progress: see `pysim.present.progress.showing`.
     Raises:
@@ -44,13 +45,14 @@ def compare(*given: Any, initial: Initial = None, criteria: Criteria = None, pro
             "compare: give one model or several, as pysim.model makes them, then the measurements", argument="given"
         )
     dataset = dataset_of(data)
-    names = _names(models)
+    names, fitted = _names(models), next((one.initial for one in models if one.initial is not None), None)
     records: dict[str, tuple[RecordFit, ...]] = {}
     notes: list[Note] = []
     with showing(progress, "comparing") as say:
         for name, one in zip(names, models, strict=True):
             say(ProgressEvent(f"simulating {name}"))
-            records[name], more = one.beside(dataset, initial)
+            known = one.first_sample(initial)
+            records[name], more = one.beside(dataset, fitted if known is None else known)
             notes += more
     return Comparison(records, dataset, criteria, tuple(dict.fromkeys(notes)))
 

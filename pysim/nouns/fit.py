@@ -45,8 +45,8 @@ def fit(
         model: its `free_names` are changed, from their values on.
         data: what `pysim.load` gives.
         initial: of the model at each log's first sample: "rest", "estimate" from the log, or state -> value; None at
-            states that were set, else as the data say, and near rest where they say nothing. It holds for logs that
-            are not fitted too.
+            states that were set, else as an earlier fit of the model had it, else as the data say, and near rest where
+            they say nothing. It holds for logs that are not fitted too.
         starts: more searches, from starts drawn between the bounds.
         seed: of the draw.
         outputs: columns to compare; all that are measured by default.

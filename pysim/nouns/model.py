@@ -377,9 +377,10 @@ class Model(Shown):
         return {"free": free, **{k: {n: pair for n, pair in v.items() if n in free} for k, v in own.items()}}
 
     def first_sample(self, initial: Initial) -> Initial:
-        """What is known of it in each log: as given; where nothing is, the model's own start once a state was set."""
+        """What is known of it in each log: as given, else as its fit had it, else its own start once a state is set."""
+        given = self.initial if initial is None else initial
         is_set = any(name in self.values for name in self.compiled.abilities.states)
-        return {} if initial is None and is_set else initial
+        return {} if given is None and is_set else given
 
     def usual(self) -> dict[str, float]:
         """Where a fit begins with the effects that were added: at usual sizes, as off may be no start."""
@@ -434,8 +435,7 @@ class Model(Shown):
             if not (dt is None or dt > 0):
                 raise BadInput(f"simulate: there are no rows every {dt:g} s; give a time above zero", argument="dt")
             refuse_unknown(initial)
-            known = self.first_sample(self.initial if initial is None else initial)
-            begun = None if inputs else self._begun(what, known)
+            begun = None if inputs else self._begun(what, self.first_sample(initial))
             if begun is not None:
                 assert isinstance(what.data, Record)
                 whole, first = begun

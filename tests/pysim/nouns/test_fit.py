@@ -293,6 +293,17 @@ def test_the_run_of_a_log_is_the_curve_that_the_fit_shows(mass: Model) -> None:
         assert found.model.simulate(log, dt=0.1, record=["v"])["v"].shape == (61,)
 
 
+def test_a_fitted_model_begins_as_its_fit_did_and_so_does_what_it_is_compared_with(mass: Model) -> None:
+    """The mass was let go 0.05 and 0.08 m away, over the square root of two some 200 and 300 times the noise."""
+    data, true = let_go(), mass.set(m=1.0, d=0.4, k=16.0)
+    found = pysim.fit(mass.set(m=1.0).free("d", "k"), data, initial="rest")
+    assert pysim.compare(found.model, data).table["rms"] == pytest.approx(found.signals["rms"], rel=1e-3)
+    assert min(pysim.compare(true, found.model, data).table["x noise"]) > 50
+    assert max(pysim.compare(true, data).table["x noise"]) < 1.1
+    assert max(pysim.compare(true, found.model, data, initial="estimate").table["x noise"][:2]) < 1.1
+    assert pysim.fit(found.model, data).values == pytest.approx(found.values, rel=1e-2)
+
+
 def test_the_run_of_a_log_that_no_fit_has_seen_begins_as_compare_begins_it(mass: Model) -> None:
     data, plant = let_go(), mass.set(m=1.0, d=0.4, k=16.0)
     for initial in ("estimate", "rest", None):
