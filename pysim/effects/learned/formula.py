@@ -29,7 +29,7 @@ _DENSE = 20  # points between two knots
 _KINK = 0.05  # rounding of a kink over the shortest interval
 _COARSE = 0.01  # standard deviation of what the knots cannot represent of a smooth law, over the curve's rms
 _WIDTHS = 12  # widths that are tried of each shape
-_REFINED = 16  # shapes and pairs of shapes whose widths are refined
+_REFINED = 16  # pairs of shapes whose widths are refined, as those of all single shapes are
 _ABSORBED = 1e-6  # share of a shape below which it counts as a combination of other columns
 _SURE = 3.09  # standard deviations of a normal distribution that are exceeded with a chance of 0.1 %
 _STEPS = 20  # golden-section steps
@@ -138,7 +138,7 @@ def formulas(law: LearnedLaw) -> tuple[Formula, ...]:
     target = _Target(law)
     if not target.is_curve:
         return ()
-    found = [target.fitted(*start) for start in target.starts()[:_REFINED]]
+    found = [target.fitted(*one) for k, one in enumerate(target.starts()) if k < _REFINED or len(one[0]) == 1]
     good = [one for one in found if one.score > 0 and target.describes(one)]
     return tuple(sorted(good, key=lambda one: -one.score))
 
@@ -175,8 +175,8 @@ class _Target:
 
     def starts(self) -> list[tuple[tuple[Shape, ...], Array]]:
         """Every shape and every pair of shapes, with the best widths or places of a grid; the best score first."""
-        grid = [(k, size) for k, shape in enumerate(SHAPES) for size in self._sizes(shape)]
-        columns = self._white @ self._columns([SHAPES[k] for k, _ in grid], [size for _, size in grid])
+        grid, raw = self._grid()
+        columns = self._white @ raw
         turned = np.linalg.qr(self._white @ self._free)[0]
         lengths = np.linalg.norm(columns, axis=0)
         columns, target = (one - turned @ (turned.T @ one) for one in (columns, self._values))
@@ -196,6 +196,21 @@ class _Target:
         found.sort(key=lambda one: self._penalty(one[0]) - 0.5 * one[1])
         return [(shapes, sizes) for shapes, _, sizes in found]
 
+    def _grid(self) -> tuple[list[tuple[int, float]], Array]:
+        """Numbers of shapes with their widths or places, and the columns of them.
+
+        A shape that is an earlier one over this range stays out, as the size of a time that is never negative.
+        """
+        grid = [(k, float(size)) for k, shape in enumerate(SHAPES) for size in self._sizes(shape)]
+        columns = self._columns([SHAPES[k] for k, _ in grid], [size for _, size in grid])
+        units = columns / np.maximum(np.linalg.norm(columns, axis=0), np.finfo(float).tiny)
+        alike = 1 - np.abs(units.T @ units) < 0.5 * _COARSE**2  # distance of columns of length 1 below _COARSE
+        new = [
+            i for i, (k, size) in enumerate(grid)
+            if not any(alike[i, j] and SHAPES[grid[j][0]].sized == SHAPES[k].sized for j in range(i) if grid[j][0] < k)
+        ]  # fmt: skip
+        return [grid[i] for i in new], columns[:, new]
+
     def _penalty(self, shapes: tuple[Shape, ...]) -> float:
         df = len(shapes) + sum(shape.sized for shape in shapes)
         return 0.5 * df * math.log(max(self._df, 2)) + math.log(math.comb(len(SHAPES), len(shapes)))
@@ -203,9 +218,12 @@ class _Target:
     def fitted(self, shapes: tuple[Shape, ...], start: Array) -> Formula:
         """The formula of some shapes: their widths or places refined from a start, their amounts, and the score."""
         sizes = self._refined(shapes, start)
-        left, amounts = self._left(self._columns(shapes, sizes))
+        columns = self._columns(shapes, sizes)
+        left, amounts = self._left(columns)
         own, absorbed = amounts[: len(shapes)], amounts[len(shapes) :]
-        score = 0.5 * (self._alone - left) - self._penalty(shapes)
+        # Shapes may be larger than the curve where they cancel. An amount that may be n times as large costs ln n.
+        times = np.abs(own) * np.sqrt(np.mean(columns**2, axis=0)) / self._size
+        score = 0.5 * (self._alone - left) - self._penalty(shapes) - float(np.sum(np.log(np.maximum(times, 1.0))))
         expression, parameters = self._written(shapes, own, sizes)
         jacobian = self._jacobian(shapes, sizes, own)
         lengths = np.linalg.norm(jacobian, axis=0)

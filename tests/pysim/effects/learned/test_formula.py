@@ -112,3 +112,24 @@ def test_the_slope_of_every_shape_is_its_derivative(shape: Shape) -> None:
     slope = replace(one, expression=one.slope("z"))
     z = np.linspace(-1.5, 1.5, 40)
     assert slope(z) == pytest.approx((one(z + 1e-5) - one(z - 1e-5)) / 2e-5, rel=1e-5, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("h", "shape", "right"),
+    [
+        (lambda t: 8.5e3 * t, "line", {"a_1": 8.5e3}),
+        (lambda t: -6e5 * np.exp(-t / 50), "decay", {"a_1": -6e5, "w_1": 50}),
+    ],
+)
+def test_a_drift_is_named_though_the_model_absorbs_a_level_that_is_a_little_tilted(
+    h: Callable[[Array], Array], shape: str, right: dict[str, float]
+) -> None:
+    """A large constant and as much of the tilted level would be a line, and the size of a time is the time."""
+    knots = np.linspace(0, 150, 9)
+    tilted = 1 + 0.05 * np.linspace(-1, 1, 9)
+    law = learned(h, sd=1e3, knots=knots)
+    keep = np.eye(9) - np.outer(tilted, tilted) / (tilted @ tilted)
+    law = replace(law, covariance=keep @ law.covariance @ keep, absorbed=tilted[:, None] / np.linalg.norm(tilted))
+    best = formulas(replace(law, argument="time", argument_unit="s", unit="Pa"))[0]
+    assert best.shapes == (shape,)
+    within(best, **right)
