@@ -63,7 +63,7 @@ class Chart(Element, component=str(_STATIC / "chart.js")):
 
 
 class Sliders(Element, component=str(_STATIC / "sliders.js")):
-    """Parameters with a number, a slider and a tick each.
+    """Parameters with a number, a slider and a tick each. `show` answers each of what was given, but not a slide.
 
     Args:
         rows: `name`, `about`, `value`, `now` (fitted, or None), `unit`, `min`, `max`, `slides` (it has both), `fitted`.
@@ -78,11 +78,15 @@ class Sliders(Element, component=str(_STATIC / "sliders.js")):
         self, rows: Sequence[Mapping[str, Any]], on_move: Callable[[str, float, bool], Any],
         on_fit: Callable[[str, bool], Any], on_bound: Callable[[str, str, float], Any],
     ) -> None:  # fmt: skip
+        def told(put: Callable[..., Any], *given: Any, heard: bool = True) -> None:
+            self._props["heard"] += heard
+            put(*given)
+
         super().__init__()
-        self._props["rows"] = list(rows)
-        self.on("move", lambda event: on_move(*(event.args[key] for key in ("name", "value", "done"))))
-        self.on("fit", lambda event: on_fit(event.args["name"], event.args["on"]))
-        self.on("bound", lambda event: on_bound(*(event.args[key] for key in ("name", "end", "value"))))
+        self._props["rows"], self._props["heard"] = list(rows), 0
+        self.on("move", lambda event: told(on_move, *_of(event, "name", "value", "done"), heard=event.args["done"]))
+        self.on("fit", lambda event: told(on_fit, *_of(event, "name", "on")))
+        self.on("bound", lambda event: told(on_bound, *_of(event, "name", "end", "value")))
 
     def show(self, rows: Sequence[Mapping[str, Any]]) -> None:
         """Other values."""
@@ -114,7 +118,11 @@ class Table(Element, component=str(_STATIC / "table.js")):
         if on_row is not None:
             self.on("row", lambda event: on_row(int(event.args)))
         if on_tick is not None:
-            self.on("tick", lambda event: on_tick(*(event.args[key] for key in ("row", "column", "on"))))
+            self.on("tick", lambda event: on_tick(*_of(event, "row", "column", "on")))
+
+
+def _of(event: Any, *names: str) -> list[Any]:
+    return [event.args[name] for name in names]
 
 
 def quantity(value: float | None, unit: str) -> dict[str, Any] | str:

@@ -156,9 +156,13 @@ class _Follows:
         """A slider is elsewhere; what is kept is where it was let go."""
         self._values = {**self._values, name: value}
         self._ask()
-        if done:
-            kept = {key: one for key, one in self._desk.project.values().items() if key != name}
+        if not done:
+            return
+        kept = {key: one for key, one in self._desk.project.values().items() if key != name}
+        try:
             self._desk.change(kept if value == self._parameter(name)["start"] else {**kept, name: value})
+        finally:
+            self._show()
 
     def _parameter(self, name: str) -> Mapping[str, Any]:
         """As the model has it."""

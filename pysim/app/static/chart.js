@@ -89,18 +89,18 @@ export default {
         const buttons = this.drawn ? undefined : settings(this.series);
         await this.turn(() => this.Plotly.react(this.$el, data, layout, buttons));
         this.drawn = true;
+        if (this.next) this.follow(...Object.values(this.next)); // came before there was a drawing
         if (this.series && this.range) await this.fetch(this.range);
       }
     },
     follow(y, traces, number) {
       this.next = { y, traces, number };
-      this.following ??= this.catchUp().finally(() => (this.following = null));
+      if (this.drawn) this.following ??= this.catchUp().finally(() => (this.following = null));
     },
     async catchUp() {
       while (this.next && this.$el.isConnected) {
         const { y, traces, number } = this.next;
         this.next = null;
-        if (!this.drawn) await this.drawing;
         await this.turn(() => this.Plotly.restyle(this.$el, { y }, traces));
         this.$el.dataset.move = number;
       }

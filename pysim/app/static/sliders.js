@@ -1,4 +1,5 @@
 // A table of parameters: a number, a slider between its bounds (by its logarithm where they lie far apart), fitted or not.
+// What is given stays until the server has heard of it: what it said before says what stood there before.
 import Entry from "/static/entry.js";
 
 const STEPS = 1000;
@@ -18,16 +19,16 @@ export default {
         <td v-if="fits" class="number">{{ row.now == null ? "" : Number(row.now.toPrecision(4)) }}</td>
         <td>{{ row.unit }}</td>
         <td v-for="end in ['min', 'max']" :key="end"><Entry needed type="number" step="any" class="field bound" :aria-label="end + ' of ' + row.name"
-              :value="short(row[end])" :stamp="stamp" @put="(words) => $emit('bound', { name: row.name, end, value: Number(words) })" /></td>
+              :value="short(row[end])" :stamp="stamp" @put="(words) => give('bound', { name: row.name, end, value: Number(words) })" /></td>
         <td class="tick"><input v-if="row.slides" type="checkbox" :aria-label="'fit ' + row.name" :checked="row.fitted"
-                                @change="$emit('fit', { name: row.name, on: $event.target.checked })" /></td>
+                                @change="give('fit', { name: row.name, on: $event.target.checked })" /></td>
       </tr></tbody>
     </table></div>`,
   components: { Entry },
-  props: { rows: Array },
+  props: { rows: Array, heard: Number },
   emits: ["move", "fit", "bound"],
   data() {
-    return { steps: STEPS, values: this.told(), stamp: 0 };
+    return { steps: STEPS, values: this.told(), stamp: 0, given: this.heard };
   },
   computed: {
     fits() {
@@ -38,15 +39,19 @@ export default {
     },
   },
   watch: {
-    rows: {
-      deep: true,
-      handler() {
-        this.values = this.told();
-        this.stamp += 1; // what was refused is shown no more
-      },
-    },
+    rows: { deep: true, handler: "follow" },
+    heard: "follow",
   },
   methods: {
+    follow() {
+      if (this.given > this.heard) return;
+      this.values = this.told();
+      this.stamp += 1; // what was refused is shown no more
+    },
+    give(kind, what) {
+      this.given += 1;
+      this.$emit(kind, what);
+    },
     told() {
       return Object.fromEntries(this.rows.map((row) => [row.name, row.value]));
     },
@@ -69,7 +74,8 @@ export default {
     },
     move(row, value, done) {
       this.values[row.name] = value;
-      this.$emit("move", { name: row.name, value, done });
+      if (done) this.give("move", { name: row.name, value, done });
+      else this.$emit("move", { name: row.name, value, done });
     },
   },
 };

@@ -19,6 +19,13 @@ from tests.pysim.app import chromium
 ROOT = Path(__file__).parents[3]
 SIZE: Any = {"width": 1280, "height": 800}
 Show = Callable[..., str]  # from a project to the address of the workbench that shows it
+# Answers of the server wait until they are let in, one by one; it says how many still wait.
+HOLD = """() => {
+  const heard = window.socket.onevent.bind(window.socket), held = [];
+  window.socket.onevent = (packet) => held.push(packet);
+  window.waiting = () => JSON.stringify(held);
+  window.letIn = () => (held.length ? heard(held.shift()) : null, held.length);
+}"""
 _STARTED = 300.0  # s, on a machine that does other things too
 
 

@@ -8,16 +8,8 @@ from typing import Any
 import pytest
 
 from pysim.app.project import Project, Settings
-from tests.pysim.app.browser import Show, Shown, Tab
+from tests.pysim.app.browser import HOLD, Show, Shown, Tab
 from tests.pysim.app.made import description, rubbing
-
-# Answers of the server wait until they are let in, one by one; it says how many still wait.
-HOLD = """() => {
-  const heard = window.socket.onevent.bind(window.socket), held = [];
-  window.socket.onevent = (packet) => held.push(packet);
-  window.waiting = () => JSON.stringify(held);
-  window.letIn = () => (held.length ? heard(held.shift()) : null, held.length);
-}"""
 
 
 @pytest.fixture

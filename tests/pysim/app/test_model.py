@@ -13,7 +13,7 @@ from pysim.app.project import Project
 from pysim.io import in_model_units, write_stages
 from pysim.types import BadInput
 from pysim.workflow import data_of, model_of
-from tests.pysim.app.browser import Show, Shown, Tab, artefacts
+from tests.pysim.app.browser import HOLD, Show, Shown, Tab, artefacts
 from tests.pysim.app.made import rubbing
 from tests.pysim.diagnosis_answer import found_offset
 
@@ -97,6 +97,26 @@ def test_every_curve_follows_a_slider_and_what_is_let_go_is_kept(shown: Shown, s
     tab.page.wait_for_function(f"Number(document.querySelector('.chart').dataset.move) > {MOVES + 4}")
     assert chart.evaluate(curve) == pytest.approx(before)
     assert project.values() == {}
+    assert tab.errors == []
+
+
+def test_a_late_answer_moves_no_slider_back(shown: Shown, show: Show, project: Project) -> None:
+    tab = Tab(shown, show(project.folder), artefacts())
+    tab.see("effects that fit")
+    tab.go("Model")
+    value, tick = tab.page.get_by_label("value of k"), tab.page.get_by_label("fit d")
+    value.wait_for()
+    tab.page.evaluate(HOLD)
+    tick.uncheck()
+    tab.until(lambda: "d" not in project.settings().free)
+    value.fill("75")
+    value.press("Tab")
+    tab.until(lambda: project.values() == {"k": 75.0})
+    tab.until(lambda: '"heard":2' in tab.page.evaluate("window.waiting()").replace("\\", ""))
+    left = 1
+    while left:
+        left = tab.page.evaluate("window.letIn()")
+        assert (value.input_value(), tick.is_checked()) == ("75", False)
     assert tab.errors == []
 
 
