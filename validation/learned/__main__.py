@@ -1,13 +1,13 @@
-"""`python -m validation.learned [PATTERN ...]`: a line for each case of these names, all without one, and the shares.
+"""`python -m validation.learned [PATTERN ...]`: cases of these names, all without one, and a page of their figures.
 
 What this commit has answered is not asked again.
 """
 
 import sys
 
-from validation.learned.case import answer_cases, shares
+from fmu_build.version import this_commit
+from validation.learned.case import answer_cases
+from validation.learned.figures import page
 
 answers = answer_cases(sys.argv[1:] or ["*"])
-print(*answers, sep="\n")
-for share in shares(answers):
-    print(share)
+print("\n".join(page(answers, f"Learned laws by commit {this_commit()}")))

@@ -14,8 +14,8 @@ from pysim.types.factor import Factor, Form
 from validation.blind.plant import BOUNDS
 from validation.learned import answer as judge
 from validation.learned.answer import Answer, answer, band, read_answer
-from validation.learned.case import shares
 from validation.learned.cases import CASES, LearnedCase
+from validation.learned.figures import page, shares
 
 V = Factor(Form.VARIABLE, "v")
 NAMED = {case.name: case for case in CASES}
@@ -97,6 +97,13 @@ def test_a_line_is_read_back() -> None:
     one = Answer("two-large-1", ("a: h(b)",), ("x",), before=2.0)
     assert read_answer(json.loads(json.dumps(asdict(one)))) == one
     assert read_answer({"case": "two-large-1", "trouble": "the process ended with -9"}).trouble
+
+
+def test_every_case_has_a_row_of_as_many_cells_as_the_head() -> None:
+    some = [Answer("two-large-1", ("a: h(b)",), ("x",), before=2.0), Answer("valve.notch-small-1", trouble="it ended")]
+    head, _, *rows = [line for line in page(some, "Learned laws") if line.startswith("|")]
+    assert [row.split(" | ")[0] for row in rows] == ["| `two-large-1`", "| `valve.notch-small-1`"]
+    assert {row.count("|") for row in rows} == {head.count("|")}
 
 
 @pytest.mark.slow
