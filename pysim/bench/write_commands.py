@@ -52,12 +52,9 @@ def write_commands(
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise BadInput(f"{folder}: something is there already; choose a new folder")
     suffix, content = FORMS[form]
+    paths = [_checked(run, folder / _COMMANDS, suffix, sampling_hz) for run in plan.runs()]
     index, written = [_HEAD], list[Path]()
-    for run in plan.runs():
-        if not sampling_hz > 2 * run.command.highest_hz:
-            raise BadInput(f"{run.source}: {sampling_hz:g} rows per second do not show {run.command.highest_hz:.4g} Hz")
-        stem = PurePosixPath(run.source).with_suffix("")
-        path = folder / _COMMANDS / stem.with_suffix(f"{stem.suffix}{suffix}")
+    for run, path in zip(plan.runs(), paths, strict=True):
         times = signal_times(path, run.command.duration, sampling_hz)
         names, columns, units = _driven(plan, run, times)
         written.append(_write(path, content(times, columns, names, units)))
@@ -70,6 +67,16 @@ def write_commands(
     written.append(_write(folder / _COMMANDS / _INDEX, "\n".join(index) + "\n"))
     files_in = {name: unit for name, (unit, _) in plan.units.items()}
     return (*written, write_description(folder, _to_come(plan, logs), files_in))
+
+
+def _checked(run: Run, folder: Path, suffix: str, sampling_hz: float) -> Path:
+    """The file of a run's command, which so many rows per second show."""
+    if not sampling_hz > 2 * run.command.highest_hz:
+        raise BadInput(f"{run.source}: {sampling_hz:g} rows per second do not show {run.command.highest_hz:.4g} Hz")
+    stem = PurePosixPath(run.source).with_suffix("")
+    path = folder / stem.with_suffix(f"{stem.suffix}{suffix}")
+    signal_times(path, run.command.duration, sampling_hz)
+    return path
 
 
 def _driven(plan: Plan, run: Run, times: Array) -> tuple[Names, Array, Names]:

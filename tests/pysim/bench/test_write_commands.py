@@ -114,6 +114,7 @@ def test_what_cannot_be_written_is_refused(plan: Plan, tmp_path: Path) -> None:
     for words, match in (({"form": "wav"}, "choose of"), ({"sampling_hz": 7.0}, "do not show 4 Hz")):
         with pytest.raises(BadInput, match=match):
             write_commands(plan, folder, **words)  # type: ignore[arg-type]
+        assert not folder.exists()  # though 7 rows per second do show the first sine
     write_commands(plan, tmp_path / "there")
     with pytest.raises(BadInput, match="something is there already"):
         write_commands(plan, tmp_path / "there")
