@@ -84,8 +84,7 @@ class Command:
                 return part.execute(parsed, (*ahead, self.name))
         assert self.run is not None
         given = Given(self, parsed, (*ahead, self.name))
-        folders, files = (_flat(given.paths(role)) for role in (Role.FOLDER, Role.FILE))
-        with no_empty_folders([*folders, *(file.parent for file in files)]):
+        with no_empty_folders(_flat(given.paths(Role.FOLDER, Role.FILE, Role.PLACE))):
             _prepare(given)
             result = self.run(given)
             return result if isinstance(result, int) else _shown(given, result)

@@ -21,6 +21,7 @@ class Role(Enum):
     READ = "read"  # a file, or a folder of files: not overwritten
     FILE = "file"  # written
     FOLDER = "folder"  # of the report
+    PLACE = "place"  # written, and looked at by the command itself
 
 
 @dataclass(frozen=True)

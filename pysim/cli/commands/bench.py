@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from pysim.cli.command import DONE, Command, Given
-from pysim.cli.option import Option, number, text
+from pysim.cli.option import Option, Role, file, number, text
 from pysim.cli.options import LIBRARY, MODEL_FIRST, PARAMETERS, PLAN, SET
 
 if TYPE_CHECKING:
@@ -83,10 +83,12 @@ COMMAND = Command(
         MODEL_FIRST,
         LIBRARY,
         PLAN,
-        Option(("-o", "--output"), "new folder for the data set", "FOLDER", convert=Path, required=True),
+        Option(
+            ("-o", "--output"), "new folder for the data set", "FOLDER", convert=Path, required=True, role=Role.PLACE
+        ),
         number("--seed", "N", None, "random seed of the noise", convert=int, required=True),
-        Option(("--truth",), "write parameters and effect here, outside FOLDER", "FILE.json", convert=Path),
-        Option(("--clean",), "write the noise-free signals here, outside FOLDER", "FOLDER2", convert=Path),
+        file("--truth", "FILE.json", "write parameters and effect here, outside FOLDER", role=Role.PLACE),
+        file("--clean", "FOLDER2", "write the noise-free signals here, outside FOLDER", role=Role.PLACE),
         SET,
         PARAMETERS,
         text("--effect", "NAME", "name of the effect that the truth file states", default="none"),

@@ -105,7 +105,7 @@ COMMAND = Command(
         Option(("SYSTEM",), "file that describes members, wires and run", "FILE.toml|FILE.ssp", convert=Path),
         number("--stop", "SECONDS", None, "end of the run (the file's own)", convert=positive),
         number("--step", "SECONDS", None, "communication step (the file's own)", convert=positive),
-        file("--export-ssp", "FILE.ssp", "write FMUs and wires as an SSP package, without a run", role=Role.VALUE),
+        file("--export-ssp", "FILE.ssp", "write FMUs and wires as an SSP package, without a run", role=Role.PLACE),
         JSON,
         OUTPUT,
     ),

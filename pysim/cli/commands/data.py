@@ -158,7 +158,7 @@ COMMAND = Command(
                 names("--input", "inputs, by their headings; commas or repeat", "NAME[:UNIT],..."),
                 names("--response", "outputs, by their headings; commas or repeat", "NAME[:UNIT],..."),
                 text("--time", "HEADING", "heading of the time column, if several could be it"),
-                file("--into", "FOLDER", "new folder for the data set", role=Role.VALUE, required=True),
+                file("--into", "FOLDER", "new folder for the data set", role=Role.PLACE, required=True),
             ),
         ),
     ),

@@ -153,7 +153,7 @@ _SHARED = (
     text("--unit", "UNIT", "unit of the command", default="%"),
     number("--sampling", "HZ", 1000.0, "rows per second"),
     Option(("-o", "--file"), "file for time, value and rate; required", "FILE.csv", convert=Path, role=Role.FILE),
-    file("--output", "DIR", "write the picture and report.html here; a .csv is taken as --file", role=Role.VALUE),
+    file("--output", "DIR", "write the picture and report.html here; a .csv is taken as --file", role=Role.PLACE),
 )
 
 
@@ -220,8 +220,12 @@ COMMAND = Command(
             _plan,
             options=(
                 PLAN,
-                Option(
-                    ("--into",), "new folder for the commands and, later, the logs", "DIR", convert=Path, required=True
+                file(
+                    "--into",
+                    "DIR",
+                    "new folder for the commands and, later, the logs",
+                    role=Role.PLACE,
+                    required=True,
                 ),
                 choice("--form", "csv", ("csv", "tdms", "generator"), "time and value, or -1 to 1 for a generator"),
                 choice("--logs", "tdms", ("tdms", "csv", "txt", "parquet"), "suffix of the logs to come"),

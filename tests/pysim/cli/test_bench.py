@@ -73,6 +73,15 @@ def test_wrong_use_writes_nothing(
     assert [path.name for path in tmp_path.iterdir()] == ["plan.toml"]
 
 
+def test_what_is_refused_later_leaves_no_empty_folder(
+    words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    places = {"-o": "a/b/set", "--clean": "c/d/clean", "--truth": "e/truth.json"}
+    told = [word for option, place in places.items() for word in (option, str(tmp_path / place))]
+    refused([*words[:-1], "-6", *told], capsys, "the seed is -6")
+    assert [path.name for path in tmp_path.iterdir()] == ["plan.toml"]
+
+
 def test_a_place_that_cannot_be_written_or_holds_something_is_refused_before_the_first_run(
     words: list[str], tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
