@@ -43,6 +43,23 @@ def test_constant_input_gives_the_closed_form(fmu: str, tmp_path: Path, solver: 
     assert [path.name for path in out.parent.iterdir()] == [out.name]
 
 
+@pytest.mark.parametrize(
+    ("stop", "step", "times"),
+    [
+        ("1", "0.3", [0.0, 0.3, 0.6, 0.9, 1.0]),
+        ("1", "0.7", [0.0, 0.7, 1.0]),
+        ("0.3", "0.1", [0.0, 0.1, 0.2, 0.3]),
+        ("0.7", "0.1", [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7]),
+    ],
+)
+def test_rows_are_a_step_apart_up_to_the_end(
+    fmu: str, tmp_path: Path, stop: str, step: str, times: list[float]
+) -> None:
+    out = tmp_path / "r.csv"
+    assert main(["simulate", fmu, "--stop", stop, "--step", step, "--output", str(out)]) == 0
+    assert read_record(out).time == pytest.approx(np.array(times), abs=1e-12)
+
+
 def test_input_from_a_file_and_json(fmu: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     (tmp_path / "u.csv").write_text("time,value\n0,0\n0.7,2.8\n2,8\n")
     numbers = tmp_path / "r.json"
