@@ -74,7 +74,7 @@ def blackbox_figure(fitted: FittedResponse) -> Figure:
 def _draw_bode(top: Axes, bottom: Axes, fitted: FittedResponse) -> dict[str, Any]:
     fit, measured = fitted.fit, fitted.measured
     f = measured.frequency
-    dense = np.geomspace(f[0], f[-1], 400)
+    dense = np.unique(np.geomspace(f[0], f[-1], 400))  # a single one where a single one was tested
     curve = fit.function.response(dense, measured.test)
     at = fit.function.response(f, measured.test)
     gain_width, phase_width = fit.band(dense, _LEVEL)

@@ -118,3 +118,12 @@ def test_a_root_far_beyond_is_told_in_words_and_whole_turns_are_taken_off() -> N
     words = " ".join(text.get_text() for text in figure.axes[3].texts)
     assert words.count(" at ") == len(far)
     assert abs(figure.axes[3].get_xlim()[0]) < 1.5 * reach
+
+
+def test_a_single_frequency_is_drawn() -> None:
+    (one,) = shown(dataset(log(F[0], 0)), Structure(1)).fitted
+    top, bottom, *_ = blackbox_figure(one).axes
+    gain, phase = one.measured.gain[0], np.degrees(one.measured.phase[0])
+    for axes, value in ((top, 20 * np.log10(gain)), (bottom, phase)):
+        x, y = axes.get_lines()[0].get_data()
+        assert (x, y) == (pytest.approx(F[:1]), pytest.approx([value], abs=1e-6))
