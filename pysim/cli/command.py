@@ -38,7 +38,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from pysim.cli.option import Option, Role
-from pysim.cli.outputs import LOG, answer_folder, prepare_answer, prepare_file, refuse_same
+from pysim.cli.outputs import LOG, answer_folder, prepare_answer, prepare_file, refuse_same, refuse_twice
 from pysim.present.report import no_empty_folders
 from pysim.workflow import command_line
 
@@ -167,7 +167,9 @@ def _prepare(given: Given) -> None:
     written = given.paths(Role.FILE)
     for folder in _flat(given.paths(Role.FOLDER)):
         prepare_answer(folder, data=data, read=read, beside=_flat(written), goes_on=given.command.goes_on)
+    taken: dict[Path, str] = {}
     for flag, paths in written.items():
+        refuse_twice(paths[0], flag, taken)
         option = next(one for one in given.command.options if one.flags[-1] == flag)
         refuse_same(paths[0], flag, read)
         prepare_file(paths[0], flag, option.suffixes, read=data)

@@ -49,7 +49,7 @@ def prepare_file(path: Path, option: str, suffixes: Sequence[str] = (), *, read:
 
     if path.is_dir():
         raise BadInput(f"{option} {path}: this is a folder; name a file in it")
-    if path.exists() and not path.is_file():  # a device, such as /dev/null
+    if _is_device(path):
         return path
     refuse_inside(path, option, read)
     if suffixes and path.suffix.lower() not in suffixes:
@@ -87,6 +87,24 @@ def refuse_same(path: Path, option: str, read: Sequence[Path]) -> None:
 
     if path.resolve() in [one.resolve() for one in read]:
         raise BadInput(f"{option} {path}: this is what is read, and would be lost; choose another name")
+
+
+def refuse_twice(path: Path, option: str, taken: dict[Path, str]) -> None:
+    """Each result has a file of its own; `taken` are those of other options, and then this one too.
+
+    Raises:
+        BadInput: the file is another option's.
+    """
+    from pysim.types import BadInput
+
+    other = taken.setdefault(path.resolve(), option)
+    if other != option and not _is_device(path):
+        raise BadInput(f"{option} {path}: {other} is written there, and one would be lost; choose another name")
+
+
+def _is_device(path: Path) -> bool:
+    """Such as /dev/null."""
+    return path.exists() and not path.is_file()
 
 
 def _probe(folder: Path, what: str, cure: str) -> None:

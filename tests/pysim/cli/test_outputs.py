@@ -7,6 +7,7 @@ import pytest
 from pysim.cli import main
 from pysim.cli.outputs import prepare_file, prepare_folder
 from pysim.types import BadInput
+from tests.pysim.cli.ran import refused
 
 TOML = """[dataset]
 name = "d"
@@ -49,6 +50,17 @@ COMMANDS = {
 }
 MORE = [("compare", "--records", "r.npz"), ("diagnose", "--events", "s.jsonl")]
 PLACES = [(name, option, "x.json") for name in COMMANDS for option in ("--json", "--output")]
+
+
+def test_two_results_are_not_written_to_one_file(
+    data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    one = tmp_path / "one.json"
+    words = ["compare", str(data), "--model", "m.fmu", "--events", str(one)]
+    refused([*words, "--json", str(tmp_path / "new" / ".." / "one.json")], capsys, "--json", "--events")
+    assert [path.name for path in tmp_path.iterdir()] == ["d"]
+    if Path("/dev/null").exists():
+        refused([*words[:-1], "/dev/null", "--json", "/dev/null"], capsys, "m.fmu")
 
 
 @pytest.mark.parametrize(("command", "option", "name"), [*PLACES, *MORE])
