@@ -97,10 +97,13 @@ def write_report(folder: Path, result: object, *, redo: str = "") -> dict[str, P
     Returns:
         name without suffix -> path: "report", each picture (PNG), each file.
     """
+    from matplotlib import rc_context
+
     from pysim.io import write_file
 
     view, result = viewed(result)
-    drawings = [draw(picture, folder) for picture in view.figures(result)]
+    with rc_context({"text.parse_math": False}):  # a name of the user's with two dollars is no formula
+        drawings = [draw(picture, folder) for picture in view.figures(result)]
     contents: Mapping[str, str | bytes] = view.files(result) if hasattr(view, "files") else {}
     for name, content in contents.items():
         write_file(folder / name, content)

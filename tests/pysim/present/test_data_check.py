@@ -1,9 +1,12 @@
 """A data check in words and numbers: faults stand out, and long lists are cut in the terminal only."""
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
 
 from pysim.identify.data_check import check_dataset
-from pysim.present import Drawing
+from pysim.present import Drawing, write_report
 from pysim.present.data_check import data, page, text
 from pysim.present.data_check.words import columns_words, uses_words
 from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, Record
@@ -85,3 +88,9 @@ def test_a_reader_hears_of_a_log_to_choose_with_only_where_it_matters() -> None:
     )
     assert columns_words(1, 2, "a.csv").startswith("1 log, 2 columns, as a.csv has them.")
     assert ("used to choose" in columns_words(2, 2, "a.csv"), "used" in columns_words(1, 2, "a.csv")) == (True, False)
+
+
+def test_a_name_with_dollars_is_drawn_as_it_is(tmp_path: Path) -> None:
+    one = dataset(1)
+    named = replace(one, records=(replace(one.records[0], source="a$_$.txt"),))
+    assert write_report(tmp_path, check_dataset(named))["logs"].is_file()

@@ -47,9 +47,12 @@ def parameters_figure(before: ErrorStep, after: ErrorStep | None) -> Figure:
 
 def _moves(axes: Axes, rows: Sequence[Estimate], moves: dict[str, float | None], held: set[str]) -> None:
     """Bars on a logarithmic axis from a tenth of an interval's half width."""
+    from pysim.present.ticks import round_numbers
+
     axes.set_xscale("log")
     high = max([10.0, *(m for m in moves.values() if m is not None)])
     axes.set_xlim(_LEAST, 8 * high)
+    style.plain_numbers(axes.xaxis, round_numbers(_LEAST, 8 * high))
     axes.axvspan(_LEAST, 1.0, color=style.BAND, alpha=0.6, linewidth=0)
     for i, row in enumerate(rows):
         move = moves.get(row.name)
