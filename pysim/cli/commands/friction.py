@@ -23,6 +23,11 @@ def run(given: Given) -> Friction:
     inertia = given.inertia
     if not (math.isfinite(inertia) and inertia >= 0):
         raise BadInput(f"--inertia {inertia}: write the moment of inertia in kg.m2, 0 or above")
+    for option, gain in (("--supply-gain", given.supply_gain), ("--load-gain", given.load_gain)):
+        if not math.isfinite(gain) or gain == 0:
+            raise BadInput(f"{option} {gain}: write the torque per pressure in m3/rad, of either sign")
+    if given.load is None and given.load_gain != 1:
+        raise BadInput("--load-gain: no torque of a load is named; add --load, or leave --load-gain out")
     columns = ShaftColumns(given.speed, given.supply, given.load, given.supply_gain, given.load_gain)
     tests, name = shaft_tests(given.dataset, columns), str(given.typed["dataset"])
     cutoff = {"cutoff_hz": given.cutoff_hz} if given.cutoff_hz else {}

@@ -64,6 +64,8 @@ def test_without_the_load_the_friction_is_another(folder: str, tmp_path: Path) -
         (["--inertia", "nan"], ["--inertia nan", "0 or above"]),
         (["--speed", "nothing"], ["no signal 'nothing'"]),
         (["--supply-gain", "1"], ["is a pressure"]),
+        (["--supply-gain", "nan"], ["--supply-gain nan", "torque per pressure"]),
+        (["--load-gain", "2e-6"], ["--load-gain", "--load"]),
         (["--cutoff-hz", "0"], ["--cutoff-hz", "positive number"]),
         (["--cutoff-hz", "600"], ["cutoff of 600 Hz", "lower the cutoff"]),
         (["--pulses", "few"], ["'few' is no number of pulses", "or none"]),
