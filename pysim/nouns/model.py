@@ -27,6 +27,7 @@ from pysim.types import (
     RecordFit,
     Signal,
     Variable,
+    rows_every,
 )
 from pysim.types import Model as Compiled
 from pysim.types._frozen import FrozenMapping
@@ -415,7 +416,7 @@ class Model(Shown):
         Args:
             what: end of the run in s, the FMU's own or 1 s by default; or a log, `data["run3"]`, whose columns that are
                 named like inputs drive them, over the log's time.
-            dt: s between two rows; a 500th of the run by default, and of a log its own.
+            dt: s between two rows, less before the last; a 500th of the run by default, and of a log its own.
             record: variables; all outputs by default, else the states.
             check: False gives back what a run that failed has reached, in place of an error.
             initial: state -> value, `{}` for the model's own start; of a log also "rest" or "estimate"; None as above.
@@ -460,7 +461,7 @@ class Model(Shown):
                 raise BadInput(
                     f"simulate: the run ends at {stop:g} s in steps of {dt} s; give times above zero", argument="what"
                 )
-            times, start = np.linspace(0.0, stop, max(2, round(stop / (dt or stop / _ROWS)) + 1)), 0.0
+            times, start = rows_every(dt or stop / _ROWS, 0.0, stop), 0.0
         for name, value in inputs.items():
             drives[model[name].name] = signal_of(value, float(times[-1]), name)
         values = self.set(**initial).values if isinstance(initial, Mapping) else self.values
@@ -688,8 +689,7 @@ class Model(Shown):
 
 def _times(data: Record, dt: float | None) -> Any:
     """Of the rows of a log's run, s."""
-    start, stop = float(data.time[0]), float(data.time[-1])
-    return data.time if dt is None else np.linspace(start, stop, max(2, round((stop - start) / dt) + 1))
+    return data.time if dt is None else rows_every(dt, float(data.time[0]), float(data.time[-1]))
 
 
 def _pair(name: str, given: Any, what: str, words: str) -> tuple[float, float]:

@@ -23,7 +23,7 @@ from pysim.types.criterion import Criterion, Deviation
 from pysim.types.dataset import Dataset, MeasuredRecord, MeasuredSignal
 from pysim.types.effect import Effect, EffectParameter
 from pysim.types.errors import BadInput, printable, with_place
-from pysim.types.experiment import Experiment
+from pysim.types.experiment import Experiment, rows_every
 from pysim.types.fit import (
     Combination,
     Direction,
@@ -113,6 +113,7 @@ __all__ = [
     "law_data",
     "printable",
     "read_step",
+    "rows_every",
     "sampling",
     "setting",
     "step_data",

@@ -15,6 +15,12 @@ from pysim.types.errors import BadInput
 from pysim.types.signal import Signal
 
 Array = NDArray[np.float64]
+_ROUNDING = 1e-6  # of a step that is left at the end, and makes no row of its own
+
+
+def rows_every(step: float, start: float, stop: float) -> Array:
+    """(n_t,) s: a row at each step from the start on, and one at the stop, which may come sooner."""
+    return np.append(np.arange(0.0, stop - start - _ROUNDING * step, step) + start, stop)
 
 
 @dataclass(frozen=True)

@@ -44,9 +44,7 @@ def run(given: Given) -> int:
 
 
 def _experiment(given: Given, model: Model) -> Experiment:
-    import numpy as np
-
-    from pysim.types import BadInput, Experiment
+    from pysim.types import BadInput, Experiment, rows_every
     from pysim.workflow import recorded_of
 
     stop = model.stop_time or _STOP if given.stop is None else given.stop
@@ -57,10 +55,10 @@ def _experiment(given: Given, model: Model) -> Experiment:
         raise BadInput(
             f"--stop {stop:g} --step {step:g}: {stop / step:.3g} rows are more than {_MOST_ROWS:,}; widen the step"
         )
-    times = np.append(np.arange(0.0, stop - 1e-6 * step, step), stop)  # rounding makes no row of its own
     inputs = _inputs(given, model)
     recorded = recorded_of(model, given.record)
-    return Experiment(times, recorded, inputs, read_parameters(given, model), rates=model.rate_inputs(inputs))
+    times, rates = rows_every(step, 0.0, stop), model.rate_inputs(inputs)
+    return Experiment(times, recorded, inputs, read_parameters(given, model), rates=rates)
 
 
 def _write(given: Given, record: Record) -> None:

@@ -234,6 +234,14 @@ def test_a_log_of_a_data_set_drives_an_input_between_samples_as_that_says(mass, 
     assert run["x"] == pytest.approx(np.interp(far, wanted.time, wanted["x"]), abs=1e-5)
 
 
+def test_a_run_has_a_row_at_every_step_that_is_asked_for(mass: Model) -> None:
+    assert mass.simulate(1.0, dt=0.3, F=0.0).time == pytest.approx([0, 0.3, 0.6, 0.9, 1])
+    log = measured(1).records[0]
+    assert isinstance(log.data, Record)
+    time = mass.simulate(log, dt=0.3 * log.data.time[-1]).time
+    assert time / log.data.time[-1] == pytest.approx([0, 0.3, 0.6, 0.9, 1])
+
+
 @pytest.mark.parametrize("phase", [0.0, 0.5 * math.pi, 4.0])
 def test_a_steady_sine_is_simulated_at_the_phase_of_its_log(mass: Model, phase: float) -> None:
     """20 s of a sine at 0.8 Hz, settled: the answer is the frequency response of the equation of motion."""

@@ -3,7 +3,7 @@ import pickle
 import numpy as np
 import pytest
 
-from pysim.types import BadInput, Experiment, Signal
+from pysim.types import BadInput, Experiment, Signal, rows_every
 
 _NONE = Signal.constant(0.0)
 
@@ -31,6 +31,24 @@ _NONE = Signal.constant(0.0)
 def test_what_makes_no_sense_is_refused(times, rest, words):
     with pytest.raises(BadInput, match=words):
         Experiment(times, **{"record": ("x",), **rest})
+
+
+@pytest.mark.parametrize(
+    ("step", "start", "stop", "rows"),
+    [
+        (0.3, 0.0, 1.0, [0, 0.3, 0.6, 0.9, 1]),
+        (0.7, 0.0, 1.0, [0, 0.7, 1]),
+        (1.0, 0.0, 1.0, [0, 1]),
+        (0.5, 2.0, 3.2, [2, 2.5, 3, 3.2]),
+    ],
+)
+def test_a_row_at_every_step_and_one_at_the_end(step, start, stop, rows):
+    assert rows_every(step, start, stop) == pytest.approx(rows, abs=1e-12)
+
+
+def test_a_step_that_divides_the_run_leaves_no_short_one():
+    for n in range(1, 2000):
+        assert rows_every(1 / n, 0.0, 1.0).size == rows_every(0.1, 0.0, 0.1 * n).size == n + 1
 
 
 def test_override_leaves_the_original_alone():
