@@ -134,9 +134,9 @@ def _fmu(name: str, one: Any, targets: set[str]) -> Fmu:
     noun = one if isinstance(one, Model) else model(one)
     compiled = noun.compiled
     idle = {
-        v.name: v.start or 0.0
-        for v in compiled.variables
-        if v.causality == "input" and f"{name}.{v.name}" not in targets and not v.name.startswith("probe.")
+        port.name: compiled[port.name].start or 0.0
+        for port in Fmu(name, compiled).inputs
+        if f"{name}.{port.name}" not in targets and not port.name.startswith("probe.")
     }
     return Fmu(name, compiled, parameters={**idle, **noun.values})
 

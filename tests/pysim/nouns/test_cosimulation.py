@@ -3,7 +3,7 @@
 import re
 import reprlib
 from collections import deque
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from threading import Lock
 from typing import Any
 
@@ -251,6 +251,14 @@ def test_inputs_that_nothing_drives_keep_their_start(mass: Model) -> None:
     run = pysim.cosimulate({"a": mass, "b": mass.set(m=2.0)}, dt=DT, stop=0.1, wires={}, inputs={"a.F": 1.0})
     assert run["a.x"][-1] > 0
     assert np.all(run["b.x"] == 0.0)
+
+
+def test_an_input_that_is_a_text_stays_as_it_is(mass: Model) -> None:
+    compiled = mass.compiled
+    note = replace(compiled["F"], name="note", reference=10**6, type="String", start=None)
+    texted = replace(compiled, variables=(*compiled.variables, note))
+    runs = [pysim.cosimulate({"a": one}, dt=DT, stop=0.1, wires={}, inputs={"a.F": 1.0}) for one in (texted, mass)]
+    assert np.array_equal(runs[0]["a.x"], runs[1]["a.x"])
 
 
 class Two:
