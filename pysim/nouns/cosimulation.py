@@ -73,11 +73,13 @@ def cosimulate(
     idle = _idle(parts, targets)
     check_heard(system, record, idle)
     names = tuple(record) or (*system.outputs, *driven)
-    every = -(-times.size // _SAID)
+    said = 0
     with showing(progress, "co-simulation") as say:
 
         def heard(time: float) -> None:
-            if round(time / dt) % every == 0:
+            nonlocal said
+            if (part := int(_SAID * time / stop)) > said:
+                said = part
                 say(ProgressEvent(f"at {time:.3g} of {stop:g} s"))
 
         experiment = Experiment(times, names, driven, rates=_rates(parts, driven))

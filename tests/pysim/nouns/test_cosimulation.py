@@ -261,6 +261,19 @@ def test_an_input_that_is_a_text_stays_as_it_is(mass: Model) -> None:
     assert np.array_equal(runs[0]["a.x"], runs[1]["a.x"])
 
 
+@pytest.mark.parametrize(("stop", "count"), [(0.7, 1), (25.0, 25), (250.0, 100)])
+def test_a_run_says_how_far_it_is(stop: float, count: int) -> None:
+    """Every thousand steps, and a hundred times at most."""
+    told: list[Any] = []
+    gain = Sampled("g", pysim.control.Gain(2.0), 1e-3)
+    run = pysim.cosimulate(
+        {"g": gain}, dt=1e-3, stop=stop, wires={}, inputs={"g.u": 1.0}, record=["g.y"], progress=told.append
+    )
+    assert len(told) == count
+    assert told[-1].stage == f"at {stop:g} of {stop:g} s"
+    assert run["g.y"][-1] == 2.0
+
+
 class Two:
     """A controller with two outputs."""
 
