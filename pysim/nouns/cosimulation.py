@@ -82,7 +82,7 @@ def cosimulate(
                 said = part
                 say(ProgressEvent(f"at {time:.3g} of {stop:g} s"))
 
-        experiment = Experiment(times, names, driven, rates=_rates(parts, driven))
+        experiment = Experiment(times, names, driven, rates=_rates(parts, driven, targets))
         run = Stepped(system, experiment, step=dt)
         try:
             with run:
@@ -157,8 +157,8 @@ def _conversion(parts: Sequence[Part], source: str, target: str) -> tuple[float 
     return (None, 0.0) if found is None else found
 
 
-def _rates(parts: Sequence[Part], driven: Mapping[str, Any]) -> dict[str, str]:
-    """Inputs of FMUs that take the exact rate of a driven one."""
+def _rates(parts: Sequence[Part], driven: Mapping[str, Any], targets: set[str]) -> dict[str, str]:
+    """Inputs of FMUs that take the exact rate of a driven one, but for those that have a wire of their own."""
     from pysim.cosim.members import Fmu
 
     return {
@@ -168,4 +168,5 @@ def _rates(parts: Sequence[Part], driven: Mapping[str, Any]) -> dict[str, str]:
         for rate, name in part.model.rate_inputs(
             n.partition(".")[2] for n in driven if n.partition(".")[0] == part.name
         ).items()
+        if f"{part.name}.{rate}" not in targets
     }

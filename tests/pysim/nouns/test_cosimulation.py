@@ -4,6 +4,7 @@ import re
 import reprlib
 from collections import deque
 from dataclasses import dataclass, replace
+from pathlib import Path
 from threading import Lock
 from typing import Any
 
@@ -16,6 +17,7 @@ from pysim.cosim import Run, Sampled, System
 from pysim.cosim.plain import PlainBlock
 from pysim.nouns.model import Model
 from pysim.types import BadInput, Experiment, Signal, SimulationError
+from tests.pysim.simulate.text_models import text_model
 
 DT = 1e-2
 WIRES = {"mass.x": "pi.measured", "pi.u": "mass.F"}
@@ -259,6 +261,22 @@ def test_an_input_that_is_a_text_stays_as_it_is(mass: Model) -> None:
     texted = replace(compiled, variables=(*compiled.variables, note))
     runs = [pysim.cosimulate({"a": one}, dt=DT, stop=0.1, wires={}, inputs={"a.F": 1.0}) for one in (texted, mass)]
     assert np.array_equal(runs[0]["a.x"], runs[1]["a.x"])
+
+
+def test_a_wire_goes_before_the_rate_of_a_driven_input(tmp_path: Path) -> None:
+    """Its name alone makes p_t the rate of p, which is 2 here; the wire brings 3."""
+    text = """model Rated
+  input Real p(start=0);
+  input Real p_t(start=0);
+  output Real y(start=0, fixed=true);
+equation
+  der(y) = p_t;
+end Rated;
+"""
+    given = {"dt": 0.1, "stop": 1.0, "inputs": {"m.p": lambda t: 2 * t}}
+    members = {"m": text_model(text, tmp_path), "c": lambda t: 3.0}
+    assert pysim.cosimulate(members, wires={"c.u": "m.p_t"}, **given)["m.y"][-1] == pytest.approx(3.0)
+    assert pysim.cosimulate({"m": members["m"]}, wires={}, **given)["m.y"][-1] == pytest.approx(2.0)
 
 
 @pytest.mark.parametrize(("stop", "count"), [(0.7, 1), (25.0, 25), (250.0, 100)])
