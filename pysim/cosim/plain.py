@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 
+from pysim.control import Block
 from pysim.cosim.member import MemberFailed
 from pysim.cosim.sampled import Sampled
 from pysim.cosim.system import Part
@@ -58,6 +59,11 @@ class PlainBlock:
             wanted = f"a number, {names[0]}" if len(names) == 1 else f"a dictionary of numbers, {', '.join(names)}"
             raise MemberFailed(f"its step returned {reprlib.repr(given)}; end it with return and {wanted}")
         return found  # type: ignore[return-value]
+
+
+def own_object(block: Block) -> Any:
+    """What the user gave as a controller."""
+    return block.controller if isinstance(block, PlainBlock) else block
 
 
 @dataclass(frozen=True)

@@ -56,6 +56,7 @@ def cosimulate(
     from pysim.cosim import Connection, System
     from pysim.cosim import Run as Stepped
     from pysim.cosim._prepare import check_heard, tick_of, unheard
+    from pysim.cosim.plain import own_object
 
     dt, stop = number_of(dt, "dt"), number_of(stop, "stop")
     members, wires, record = mapping_of(members, "members"), mapping_of(wires, "wires"), names_of(record, "record")
@@ -92,7 +93,7 @@ def cosimulate(
             if check:
                 raise
             done = error.record
-    controllers = {name: getattr(block, "controller", block) for name, block in run.blocks.items()}
+    controllers = {name: own_object(block) for name, block in run.blocks.items()}
     notes: tuple[Note, ...] = ()
     if idle and (lost := [output for own in unheard(system, record).values() for output in own]):
         told = {"outputs": ", ".join(lost), "inputs": ", ".join(idle), "output": lost[0], "input": idle[0]}

@@ -82,6 +82,7 @@ def _what(member: Any) -> str:
     """What a member is, in a few words."""
     from pysim.cosim import Sampled
     from pysim.cosim.members import Fmu, Isolated
+    from pysim.cosim.plain import own_object
 
     if isinstance(member, Isolated):
         return f"{_what(member.member)}, in a process of its own"
@@ -92,8 +93,7 @@ def _what(member: Any) -> str:
         )
     if isinstance(member, Sampled):
         delay = f", {1e3 * member.delay:g} ms later" if member.delay else ""
-        block = getattr(member.block, "controller", member.block)
-        return f"{type(block).__name__}, sampled every {1e3 * member.every:g} ms{delay}"
+        return f"{type(own_object(member.block)).__name__}, sampled every {1e3 * member.every:g} ms{delay}"
     return type(member).__name__
 
 

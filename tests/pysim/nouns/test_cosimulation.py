@@ -81,6 +81,18 @@ def test_a_run_leaves_the_controller_as_it_is_and_gives_what_it_made_of_it(mass:
     assert np.array_equal(closed(mass, controller)["pi.u"], closed(mass, begun)["pi.u"])
 
 
+class Cascade(pysim.control.Gain):
+    """A block with ports, and a controller within it."""
+
+    controller = "inner"
+
+
+def test_a_block_is_given_back_whole() -> None:
+    cascade = Cascade(2.0)
+    run = pysim.cosimulate({"c": cascade}, dt=DT, stop=DT, wires={}, inputs={"c.u": 1.0}, record=["c.y"])
+    assert run.controllers["c"] == cascade
+
+
 def test_one_object_as_two_members_is_two_controllers(mass: Model) -> None:
     """Both see the same, so that both do the same."""
     one = PI(20.0, 0.5, DT)
