@@ -75,18 +75,19 @@ class Sampler:
         self._write(*values)
 
     def _take_over(self, block: Block) -> None:
-        """Go on with a copy: whatever the block holds, what it was copied from stays as it is.
+        """Go on with a copy: whatever the block holds, what it was copied from stays as it is."""
+        self.block = self._copied(block)
+        self._step = self.block.step
 
-        Raises:
-            BadInput: it cannot be copied.
-        """
+    def _copied(self, block: Block) -> Block:
+        """Raises: BadInput where it cannot be copied."""
         try:
-            self.block = copy.deepcopy(block)
+            return copy.deepcopy(block)
         except Exception as error:  # whatever its parts raise
             raise BadInput(
-                f"{self.name}: it cannot be copied, as each run needs ({error}); open files and connections in step"
+                f"{self.name}: it cannot be copied, as each run and each saved state needs ({error}); open files and "
+                "connections in step, and leave them out of its __getstate__"
             ) from error
-        self._step = self.block.step
 
     def sample(self, tick: int | None, time: float) -> None:
         """Step the block if its time has come; it never has between communication points, where tick is None.
@@ -172,7 +173,7 @@ class Sampler:
 
     def save(self) -> SamplerState:
         """All that the next samples depend on."""
-        block = copy.deepcopy(self.block)
+        block = self._copied(self.block)
         return SamplerState(block, tuple(self._values), self._before, self._time, self._fresh, tuple(self._waiting))
 
     def restore(self, state: SamplerState) -> None:

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Sequence
+from threading import Lock
 
 import numpy as np
 import pytest
@@ -214,3 +215,31 @@ def test_a_block_is_as_its_owner_left_it_when_a_run_begins() -> None:
         beside.advance()
         assert np.array_equal(run.record().values, beside.record().values)
     assert block.total == 0.0
+
+
+class Logging(Adding):
+    """Holds what cannot be copied from its first step on."""
+
+    def step(self, time: float, inputs: Sequence[float]) -> tuple[float]:
+        self.lock = Lock()
+        return super().step(time, inputs)
+
+
+class LeavingOut(Logging):
+    def __getstate__(self) -> dict[str, object]:
+        return {name: value for name, value in vars(self).items() if name != "lock"}
+
+
+def test_a_state_that_cannot_be_copied_is_refused_with_its_cure() -> None:
+    experiment = Experiment(np.arange(4) * 0.1, ("c.u",))
+    with Run(System((Sampled("c", Logging(), 0.1),)), experiment, step=0.1) as run:
+        run.advance(0.1)
+        with pytest.raises(BadInput, match=r"c: it cannot be copied, .*lock.* leave them out of its __getstate__"):
+            run.save()
+    with Run(System((Sampled("c", LeavingOut(), 0.1),)), experiment, step=0.1) as run:
+        run.advance(0.1)
+        kept = run.save()
+        for _ in range(2):
+            run.advance()
+            assert run.record()["c.u"].tolist() == [1, 2, 3, 4]
+            run.restore(kept)
