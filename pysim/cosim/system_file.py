@@ -167,6 +167,8 @@ def _bonds(toml: TomlFile) -> tuple[Bond, ...]:
 
 def _order(run: Section) -> Order:
     name, lines = run.text("order", "jacobi", among=_ORDERS), run.flag("lines", False)
+    if name != "gauss-seidel" and "sequence" in run.values:
+        raise run.error(f'{name} steps know no sequence; remove it, or write order = "gauss-seidel"')
     if name == "iterated":
         if lines:
             raise run.error("iterated steps join the inputs' values by lines anyhow; remove lines")

@@ -131,6 +131,7 @@ def written(folder: Path, text: str, name: str = "other.toml") -> Path:
         ('fmu = "Mass_2.fmu"', 'inertia = "a"', 'line 4: say what mass is: fmu = "FILE.fmu", block'),
         ('fmu = "Mass_2.fmu"', 'fmu = "Mass_2.fmu"\nsteps = 2', "line 4: the key 'steps' is not known"),
         ('order = "gauss-seidel"', 'order = "euler"', "line 23: order = 'euler' is not known"),
+        ('order = "gauss-seidel"', 'sequence = ["spring", "mass"]', "line 23: jacobi steps know no sequence"),
         ("step = 1e-3", "", "line 23: step is missing"),
         ("stop = 1.0", "stop = 0.0", "line 23: no row lies between"),
         ("stop = 1.0", "", "line 23: stop is missing"),
