@@ -123,6 +123,9 @@ def _fmu(name: str, section: Section, folder: Path) -> Any:
             events=section.flag("events", True),
             feedthrough=section.text("feedthrough", "standard"),
         )
+        if tolerance is not None and fmu.interface == "co-simulation":
+            cure = 'remove it, or write interface = "model-exchange"'
+            raise section.error(f"an FMU that steps by itself takes no tolerance; {cure}")
         if not section.flag("isolated", limit is not None):
             return fmu
         return Isolated(fmu) if limit is None else Isolated(fmu, time_limit=limit)

@@ -129,6 +129,7 @@ def written(folder: Path, text: str, name: str = "other.toml") -> Path:
         ("m = 4.0", 'm = "heavy"', r"line 4, parameters: m = 'heavy' is no finite number"),
         ("Mass_2.fmu", "Nothing.fmu", r"line 4: no FMU at .*Nothing\.fmu"),
         ('fmu = "Mass_2.fmu"', 'inertia = "a"', 'line 4: say what mass is: fmu = "FILE.fmu", block'),
+        ('fmu = "Mass_2.fmu"', 'fmu = "Mass_2.fmu"\ntolerance = 1e-3', "line 4: an FMU that steps by itself takes no"),
         ('fmu = "Mass_2.fmu"', 'fmu = "Mass_2.fmu"\nsteps = 2', "line 4: the key 'steps' is not known"),
         ('order = "gauss-seidel"', 'order = "euler"', "line 23: order = 'euler' is not known"),
         ('order = "gauss-seidel"', 'sequence = ["spring", "mass"]', "line 23: jacobi steps know no sequence"),
