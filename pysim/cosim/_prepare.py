@@ -114,14 +114,14 @@ def tick_of(time: float, start: float, step: float, what: str = "time", *, least
     Raises:
         BadInput: there is none.
     """
-    exact = (time - start) / step
-    number = round(exact)
-    if abs(exact - number) > _NEAR or number < least:
+    exact = float((time - start) / step)
+    number = float(np.rint(exact))
+    if not abs(exact - number) <= _NEAR or number < least:
         raise BadInput(
             f"{what} {time:.12g} s is no whole number of steps of {step:g} s from {start:g} s ({exact:.6g}); take a "
             "step that divides it"
         )
-    return number
+    return int(number)
 
 
 def ticks(experiment: Experiment, step: float) -> list[int]:

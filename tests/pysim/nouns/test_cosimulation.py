@@ -184,6 +184,7 @@ class Slotted:
         ({"pi": PI(1.0, 1.0, DT)}, {"inputs": {}}, "reference"),
         ({"pi": PI(1.0, 1.0, 0.3 * DT)}, {}, "whole number"),
         ({"pi": PI(1.0, 1.0, DT)}, {"stop": 0.0}, "stop"),
+        ({"pi": PI(1.0, 1.0, DT)}, {"stop": np.inf}, "stop = inf s is no whole number of steps"),
         ({"pi": PI(1.0, 1.0, DT)}, {"stop": "1"}, "stop: '1' is no number"),
         ({"pi": PI(1.0, 1.0, DT)}, {"wires": [("mass.x", "pi.measured")]}, "wires: a list has no names"),
     ],
