@@ -127,7 +127,11 @@ def _step_of(name: str, controller: Any) -> Callable[..., Any]:
 
 def _arguments(name: str, step: Callable[..., Any]) -> list[inspect.Parameter]:
     """What a step takes after the time."""
-    time, *parameters = inspect.signature(step).parameters.values() or (None,)
+    try:
+        time, *parameters = inspect.signature(step).parameters.values() or (None,)
+    except ValueError as error:  # of some that are written in C or C++
+        cure = "call it in a function of your own: lambda t, reference, measured: ..."
+        raise BadInput(f"{name}: its step does not tell its arguments ({error}); {cure}") from error
     for one in parameters:
         if one.kind in (one.VAR_POSITIONAL, one.VAR_KEYWORD, one.KEYWORD_ONLY):
             raise BadInput(f"{name}: its step takes {one}; name each input: step(self, t, reference, measured)")

@@ -179,6 +179,7 @@ class Slotted:
         ({"pi": type("All", (), {"step": lambda self, t, *rest: 0.0})()}, {}, "name each input"),
         ({"pi": PI}, {}, r"pi: PI is a class; give an object of it, PI\(...\)"),
         ({"pi": lambda: 0.0}, {}, "takes no time"),
+        ({"pi": max}, {}, "pi: its step does not tell its arguments .*call it in a function of your own"),
         ({"pi": PI(1.0, 1.0, DT)}, {"dt": 0.03}, "no whole number of steps of 0.03 s"),
         ({"pi": PI(1.0, 1.0, DT)}, {"wires": {"mass.y": "pi.measured", "pi.u": "mass.F"}}, "mass.y"),
         ({"pi": PI(1.0, 1.0, DT)}, {"inputs": {}}, "reference"),
