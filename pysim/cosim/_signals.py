@@ -32,12 +32,12 @@ class Signals:
         place = (tick - self._tick) * count
         if not 0 <= place < len(self._table):
             self._tick, place = tick, 0
-            self._table = view_of(self._values(after(self._times(tick))).ravel())
+            self._table = view_of(self._values(self._after(self._times(tick))).ravel())
         return self._table[place : place + count]
 
     def between(self, time: float) -> memoryview[float]:
         """Values at any time, s."""
-        return view_of(self._values(after(np.array([time])))[0])
+        return view_of(self._values(self._after(np.array([time])))[0])
 
     def toward(self, time: float, end: float, tick: int | None) -> list[float]:
         """Where lines that leave the values at `time` arrive at `end` (s), to the left of a jump there.
@@ -58,11 +58,14 @@ class Signals:
     def _times(self, tick: int) -> Array:
         return np.asarray(self._start + np.arange(tick, tick + _PART) * self._step)
 
+    def _after(self, times: Array) -> Array:
+        return after(times, self._start)
+
     def _values(self, times: Array) -> Array:
         return np.column_stack([of(times) for of in self._functions])
 
     def _ends(self, times: Array, ends: Array) -> list[list[float]]:
-        first, last = after(times), before(ends)
+        first, last = self._after(times), before(ends, self._start)
         latest = np.column_stack([jumps[np.searchsorted(jumps, last, side="right") - 1] for jumps in self._jumps])
         found, jumped = self._values(last), latest > first[:, None]
         rows = jumped.any(axis=1)
@@ -71,14 +74,14 @@ class Signals:
         return kept
 
 
-def after(times: NDArray[np.floating]) -> Array:
-    """The same times, to the right of a jump that rounding would put behind them."""
-    return np.asarray(times + 4 * np.spacing(np.abs(times)), dtype=np.float64)
+def after(times: NDArray[np.floating], start: float = 0.0) -> Array:
+    """The same times, to the right of a jump that rounding would put behind them; counted from `start`, s."""
+    return np.asarray(times + 4 * np.spacing(np.maximum(np.abs(times), abs(start))), dtype=np.float64)
 
 
-def before(times: NDArray[np.floating]) -> Array:
-    """The same times, to the left of a jump that rounding would put ahead of them."""
-    return -after(-times)
+def before(times: NDArray[np.floating], start: float = 0.0) -> Array:
+    """The same times, to the left of a jump that rounding would put ahead of them; counted from `start`, s."""
+    return -after(-times, start)
 
 
 def _followed(experiment: Experiment, name: str) -> tuple[Callable[[Array], Array], Array]:

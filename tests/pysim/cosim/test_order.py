@@ -101,3 +101,15 @@ def test_a_step_stays_a_step(order: Order, takes_rates: bool) -> None:
     record = cosimulate(System((member,)), Experiment(times, ("i.x",), {"i.u": steps}), step=0.1, order=order)
     known = np.cumsum([0, 1, 1, 1, 3, 3, 3, 3, -1, -1, 0]) * 0.1
     assert record["i.x"] == pytest.approx(known, abs=1e-12)
+
+
+@pytest.mark.parametrize("takes_rates", [False, True])
+@pytest.mark.parametrize("step", [0.01, 0.02])
+def test_a_step_comes_in_time_in_a_run_that_starts_long_before(step: float, takes_rates: bool) -> None:
+    """From -10 s on, so many steps end 4e-16 s ahead of 0.1 s, which is 26 times the rounding of 0.1."""
+    member = Linear("i", (Port("u"),), (Port("x"),), A=[[0]], B=[[1]], C=[[1]], takes_rates=takes_rates)
+    times = -10.0 + step * np.arange(round(10.2 / step) + 1)
+    experiment = Experiment(times, ("i.x", "i.u"), {"i.u": Signal.steps([0.0, 0.1], [0.0, 1.0])}, start=-10.0)
+    record = cosimulate(System((member,)), experiment, step=step)
+    assert record["i.u"] == pytest.approx(1.0 * (times > 0.1 - 0.5 * step))
+    assert record["i.x"] == pytest.approx(np.maximum(times - 0.1, 0.0), abs=1e-12)
