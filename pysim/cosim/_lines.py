@@ -77,15 +77,18 @@ class Lines:
             (core.layout.places[b.name].outputs, core.samplers[b.name]) for b in core.layout.blocks if b.hold
         ]
 
-    def begin(self, time: float, end: float, tick: int | None) -> None:
-        """Take the sources as they are at `time`, and what is known or expected of them at `end` (s).
+    def begin(self) -> None:
+        """A step begins: take the sources as they are."""
+        self.begins[:] = self._core.sources
+
+    def aim(self, time: float, end: float, tick: int | None) -> None:
+        """Find what is known or expected of the sources at `end` (s), and make all inputs of a step to there.
 
         Args:
             tick: number of the communication point at `end`, if it is one.
         """
         core, outputs = self._core, self._core.outputs.size
-        self.begins[:] = core.sources
-        self.ends[:] = core.sources
+        self.ends[:] = self.begins
         if self.memory is not None:
             before, values = self.memory
             if end - time <= _FARTHEST * (time - before):
@@ -95,6 +98,7 @@ class Lines:
             self.ends[self._signals] = core.signals.toward(time, end, tick)
         for slots, sampler in self._moving:
             self.ends[slots] = sampler.ahead(end)
+        self.hold(time, end)
 
     def hold(self, time: float, end: float, name: str | None = None) -> None:
         """Make inputs and rates from begins and ends: those of one member, or of all."""

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from pysim.cosim._core import Core
 from pysim.cosim._lines import Inputs, Lines
-from pysim.cosim._sweep import Sweep
+from pysim.cosim._sweep import Prepare, Sweep
 
 
 class Held:
@@ -15,15 +16,14 @@ class Held:
     memory: Any = None
     lines = False
 
-    def __init__(self, core: Core, sweep: Sweep) -> None:
+    def __init__(self, core: Core, order: Sequence[str], prepare: Sequence[Prepare | None]) -> None:
         first, begins, toward = len(core.layout.outputs), core.row.view, core.signals.toward
         driven, others = Inputs(core, core.layout.members, first), [0.0] * first
 
-        def along(time: float, end: float, tick: int | None = None) -> float:
+        def along(time: float, end: float, tick: int | None) -> None:
             driven.hold(begins, others + toward(time, end, tick), end - time)
-            return sweep(time, end)
 
-        self.advance = along if driven.some else sweep.__call__
+        self.advance = Sweep(core, order, prepare, along if driven.some else None).__call__
 
 
 class Remembering:
@@ -47,14 +47,13 @@ class Remembering:
 class Lined(Remembering):
     """Inputs run along lines."""
 
-    def __init__(self, sweep: Sweep, lines: Lines) -> None:
+    def __init__(self, core: Core, lines: Lines, order: Sequence[str], prepare: Sequence[Prepare | None]) -> None:
         super().__init__(lines)
-        self._sweep = sweep
+        self._sweep = Sweep(core, order, prepare, lines.aim)
 
     def advance(self, time: float, end: float, tick: int | None) -> float:
         """See Stepper."""
-        self._lines.begin(time, end, tick)
-        self._lines.hold(time, end)
-        reached = self._sweep(time, end)
+        self._lines.begin()
+        reached = self._sweep(time, end, tick)
         self._lines.done(time)
         return reached

@@ -15,55 +15,68 @@ from pysim.types import Outcome
 _FEW = 12
 
 Prepare = Callable[[float, float], None]
+Make = Callable[[float, float, int | None], None]
 
 
 class Sweep:
     """Steps members in an order; all end at the same time, the earliest that one of them could reach.
 
-    Where a member returns early, those that have stepped on are put back and stepped again to that time. Where that
+    Where a member returns early, it and those that have stepped on are put back and stepped again to that time, since
+    inputs that run, or their means, are others over a shorter step. The first to step is left where it is if it cannot
+    go back, or if no inputs run. Where that
     cannot be, because a member cannot be put back or takes no other step, the one goes on by itself, with its inputs as
     they are; `counts["unaligned"]` tells.
 
     Args:
         order: names of all members.
         prepare: for each, what is to be done with its inputs right ahead of its step; None for nothing.
+        make: makes the inputs of all for a step from one time to another, to a tick; None where they are held.
     """
 
-    def __init__(self, core: Core, order: Sequence[str], prepare: Sequence[Prepare | None]) -> None:
+    def __init__(
+        self, core: Core, order: Sequence[str], prepare: Sequence[Prepare | None], make: Make | None = None
+    ) -> None:
         members = {member.name: member for member in core.layout.members}
         self._core, self._balance, outputs = core, core.balance, core.outputs
         few = outputs.size <= _FEW
         self._total = partial(sum, core.row.view[: outputs.size]) if few else partial(outputs.dot, outputs)
         self._plan = [(members[name], members[name].step, todo) for name, todo in zip(order, prepare, strict=True)]
         early = [i for i, (member, _, _) in enumerate(self._plan) if member.may_return_early]
-        again = [member for member, _, _ in self._plan[: early[-1] + 1]] if early and early[-1] > 0 else []
-        self._can_cut = all(m.can_vary_step for m, _, _ in self._plan) and all(m.can_rollback for m in again)
-        self._again = again if self._can_cut else []
+        again = [member for member, _, _ in self._plan[: early[-1] + 1]] if early else []
+        can_go_back, others = all(m.can_rollback for m in again), early != [0]
+        self._can_cut = all(m.can_vary_step for m, _, _ in self._plan) and (can_go_back or not others)
+        self._again = again if self._can_cut and can_go_back and (others or make is not None) else []
+        self._make = make
         self._kept: list[object] = [None] * len(self._again)
 
     def __call__(self, time: float, end: float, tick: int | None = None) -> float:
-        """Step all from `time` towards `end` (s); the time they have reached. What tick that is does not matter.
+        """Step all from `time` towards `end` (s), which is that tick; the time they have reached.
 
         Raises:
             Fault: a member could not go on, or put out what is no finite number.
         """
         if self._again:
             self._kept = [save(m, old) for m, old in zip(self._again, self._kept, strict=True)]
+        if self._make is not None and end > time:
+            self._make(time, end, tick)
         goal = end
         for number, (member, step, prepare) in enumerate(self._plan):
             try:
-                if prepare is not None:
-                    prepare(time, end)
+                if prepare is not None and goal > time:
+                    prepare(time, goal)
                 reached = step(time, goal)
             except Exception as error:
                 raise self._blame(member, error) from error
             if reached != goal:
                 reached = self._early(member, time, reached, goal)
-                if reached != goal and number:
+            if reached != goal:
+                if number or (self._again and reached > time):
                     for one, state in zip(self._again[: number + 1], self._kept, strict=False):
                         restore(one, state)
                     return self(time, reached)
                 goal = reached
+                if self._make is not None and goal > time:
+                    self._make(time, goal, None)
         total = self._total()
         if total - total != 0:
             self._check_all()

@@ -9,7 +9,7 @@ from pysim.cosim._core import Core
 from pysim.cosim._graph import components
 from pysim.cosim._lines import Lines
 from pysim.cosim._steppers import Held, Lined
-from pysim.cosim._sweep import Prepare, Sweep, carrier
+from pysim.cosim._sweep import Prepare, carrier
 from pysim.cosim.order import Stepper
 from pysim.cosim.system import System, owner
 from pysim.types import BadInput
@@ -49,11 +49,10 @@ class GaussSeidel:
         ordered = self.order or stepping_order(core.system, names)
         before = [ordered[:number] for number in range(len(ordered))]
         if not self.lines:
-            sweep = Sweep(core, ordered, [carrier(core, n, b) for n, b in zip(ordered, before, strict=True)])
-            return Held(core, sweep)
+            return Held(core, ordered, [carrier(core, n, b) for n, b in zip(ordered, before, strict=True)])
         lines = Lines(core)
         prepare = [_interpolator(core, lines, n, b) for n, b in zip(ordered, before, strict=True)]
-        return Lined(Sweep(core, ordered, prepare), lines)
+        return Lined(core, lines, ordered, prepare)
 
 
 def stepping_order(system: System, names: Sequence[str]) -> tuple[str, ...]:

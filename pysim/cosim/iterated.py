@@ -86,7 +86,8 @@ class _Stepper(Remembering):
         """See Stepper."""
         core = self._core
         core.enlarge_scale()
-        self._lines.begin(time, end, tick)
+        self._lines.begin()
+        self._lines.aim(time, end, tick)
         self._kept = states = core.save(self._kept)
         again = False
 

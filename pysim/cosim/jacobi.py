@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pysim.cosim._core import Core
 from pysim.cosim._lines import Lines
 from pysim.cosim._steppers import Held, Lined
-from pysim.cosim._sweep import Sweep
 from pysim.cosim.order import Stepper
 
 
@@ -32,5 +31,5 @@ class Jacobi:
         """Start to work."""
         # Those that may return early go first: then nobody has gone past their event.
         names = [m.name for m in sorted(core.layout.members, key=lambda m: not m.may_return_early)]
-        sweep = Sweep(core, names, [None] * len(names))
-        return Lined(sweep, Lines(core)) if self.lines else Held(core, sweep)
+        nothing = [None] * len(names)
+        return Lined(core, Lines(core), names, nothing) if self.lines else Held(core, names, nothing)

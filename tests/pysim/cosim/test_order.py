@@ -1,10 +1,13 @@
 """What every order of stepping has to do: converge as it claims on two coupled oscillators, and repeat from a state."""
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 import pytest
 
 from pysim.control import PI
-from pysim.cosim import Connection, Doubling, Order, Run, Sampled, System, cosimulate
+from pysim.cosim import Connection, Doubling, GaussSeidel, Jacobi, Order, Run, Sampled, System, cosimulate
 from pysim.types import Experiment, Port, Signal
 from tests.cosim_parts import Linear, oscillation, oscillators
 from tests.pysim.cosim.order_cases import ORDERS
@@ -113,3 +116,34 @@ def test_a_step_comes_in_time_in_a_run_that_starts_long_before(step: float, take
     record = cosimulate(System((member,)), experiment, step=step)
     assert record["i.u"] == pytest.approx(1.0 * (times > 0.1 - 0.5 * step))
     assert record["i.x"] == pytest.approx(np.maximum(times - 0.1, 0.0), abs=1e-12)
+
+
+def broken(*wires: Connection, rates: bool = False, back: bool = True) -> System:
+    """Two integrators; every step of the first ends early at a quarter, with an event that changes nothing."""
+    ports, breaks = ((Port("u"),), (Port("y"),)), tuple(0.1 * (n + 0.25) for n in range(10))
+    more = {"A": [[0.0]], "B": [[1.0]], "C": [[1.0]], "can_rollback": back}
+    return System((Linear("k", *ports, breaks=breaks, **more), Linear("i", *ports, takes_rates=rates, **more)), wires)
+
+
+@pytest.mark.parametrize("rates", [False, True])
+@pytest.mark.parametrize("lines", [False, True])
+@pytest.mark.parametrize("make", [Jacobi, partial(GaussSeidel, ("k", "i")), partial(GaussSeidel, ("i", "k"))])
+def test_an_input_runs_to_the_end_of_a_step_that_ends_early(
+    make: Callable[..., Order], lines: bool, rates: bool
+) -> None:
+    """The integral of a ramp is exact, whether a member takes the line or its mean."""
+    times, ramp = np.linspace(0, 1, 11), Signal.lines([0, 1], [0, 1])
+    experiment = Experiment(times, ("k.y", "i.y"), {"k.u": ramp, "i.u": ramp})
+    record = cosimulate(broken(rates=rates), experiment, step=0.1, order=make(lines=lines))
+    assert record.values == pytest.approx(np.column_stack([times, times]) ** 2 / 2, abs=1e-12)
+    assert record.statistics["events"] == 10
+
+
+@pytest.mark.parametrize("rates", [False, True])
+def test_those_behind_one_that_ends_early_follow_its_line(rates: bool) -> None:
+    """Also if it cannot go back."""
+    times = np.linspace(0, 1, 11)
+    experiment = Experiment(times, ("i.y",), {"k.u": Signal.constant(1.0)})
+    system = broken(Connection("k.y", "i.u"), rates=rates, back=False)
+    record = cosimulate(system, experiment, step=0.1, order=GaussSeidel(lines=True))
+    assert record["i.y"] == pytest.approx(times**2 / 2, abs=1e-12)
