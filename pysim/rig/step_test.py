@@ -58,13 +58,8 @@ class StepTest:
 
     def reference(self, kind: str) -> Signal:
         """Of the speed (rad/s) or the load pressure (Pa)."""
-        base = self.speed if kind == "speed" else self.load
-        if kind != self.kind:
-            return Signal.lines([0.0, 1.0], [0.0, base])
-        before = [0.0, 1.0] if self.at == 1.0 else [0.0, 1.0, self.at]
-        levels = [0.0, base, base][: len(before)]
-        behind = [self.at + 1e-9, self.at + self.length + 1.0]
-        return Signal.lines(before + behind, levels + 2 * [base + self.size])
+        ramp = Signal.lines([0.0, 1.0], [0.0, self.speed if kind == "speed" else self.load])
+        return ramp.plus(Signal.steps([0.0, self.at], [0.0, self.size])) if kind == self.kind else ramp
 
     def experiment(self, feed: Feed = "reference", *, every: float = _ROW) -> Experiment:
         """For `rig_system` without a crane, a row every so many seconds, a whole number of communication steps."""

@@ -49,7 +49,7 @@ def test_references_ramp_up_and_one_steps() -> None:
 
 def test_a_step_where_the_ramps_end() -> None:
     reference = StepTest("speed", 20.0, speed=30.0, at=1.0, length=1.0).reference("speed")
-    assert reference.value(np.array([0.5, 1.0, 1.001, 2.0])) == pytest.approx([15, 30, 50, 50])
+    assert reference.value(np.array([0.5, 1.0, 1.001, 2.0])) == pytest.approx([15, 50, 50, 50])
 
 
 @pytest.mark.parametrize(
