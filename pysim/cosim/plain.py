@@ -41,7 +41,7 @@ class PlainBlock:
         parameters = _arguments(name, self._step)
         self.inputs = tuple(Port(p.name, inputs.get(p.name, "1"), _default(name, p)) for p in parameters)
         self.outputs = tuple(Port(one, unit) for one, unit in outputs.items())
-        self.dt = getattr(controller, "dt", None)
+        self.dt, self._has_order = getattr(controller, "dt", None), bool(_listed(controller))
 
     def step(self, time: float, inputs: Sequence[float]) -> tuple[float, ...]:
         """One sample.
@@ -53,7 +53,7 @@ class PlainBlock:
         if isinstance(given, Mapping):
             row: Iterable[Any] = [given[name] for name in names if name in given]
         else:
-            row = given if len(names) > 1 and hasattr(self.controller, "outputs") and np.ndim(given) else [given]
+            row = given if len(names) > 1 and self._has_order and np.ndim(given) else [given]
         found = tuple(_number(one) for one in row)
         if len(found) != len(names) or None in found:
             wanted = f"a number, {names[0]}" if len(names) == 1 else f"a dictionary of numbers, {', '.join(names)}"
@@ -110,10 +110,17 @@ def _with_ports(
     own = {p.partition(".")[2]: unit for p, unit in ends.items() if p.partition(".")[0] == part.name}
     # Names of what it returns: those it lists itself, else those that wires begin with.
     begun = [source.partition(".")[2] for source, _ in wires if source.partition(".")[0] == part.name]
-    names = [str(one) for one in getattr(part.controller, "outputs", None) or begun or [_ALONE]]
+    names = _listed(part.controller) or begun or [_ALONE]
     outputs = {name: starts.get(f"{part.name}.{name}", "1") for name in names}
     block = PlainBlock(part.name, part.controller, own, outputs)
     return Sampled(part.name, block, part.every, part.delay, part.hold)
+
+
+def _listed(controller: Any) -> list[str]:
+    """Names of outputs that it lists itself; none where it has something else under that name, as its last values."""
+    given = getattr(controller, "outputs", ())
+    row = [given] if isinstance(given, str) else list(given) if isinstance(given, tuple | list) else []
+    return row if all(isinstance(one, str) for one in row) else []
 
 
 def _step_of(name: str, controller: Any) -> Callable[..., Any]:

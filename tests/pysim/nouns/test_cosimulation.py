@@ -234,6 +234,17 @@ def test_several_outputs_have_their_names_from_the_controller(mass: Model) -> No
     assert (run["two.u"][-1], run["two.v"][-1]) == (1.0, -2.0)
 
 
+@pytest.mark.parametrize("kept", [1.0, np.zeros(3), [0.0, 1.0], "speed", ("speed",)])
+def test_what_a_controller_keeps_as_its_outputs_is_its_own_but_for_names(kept: object) -> None:
+    def double(t: float, x: float) -> float:
+        return 2.0 * x
+
+    double.outputs = kept  # type: ignore[attr-defined]
+    members, wires = {"c": double, "g": lambda t, x: x}, {"c.speed": "g.x"}
+    run = pysim.cosimulate(members, dt=DT, stop=DT, wires=wires, inputs={"c.x": 1.0}, record=["g.u"])
+    assert run["g.u"][-1] == 2.0
+
+
 def test_a_fast_function_drives_a_long_run(mass: Model) -> None:
     """It was looked at 2001 times, which of this one saw zeros alone."""
     run = pysim.cosimulate(
