@@ -49,9 +49,8 @@ def text(result: CoSimulation) -> str:
     lines = [_how(result)]
     width = max(map(len, result.record.names), default=0)
     for signal, unit, (low, high, last) in _signals(result.record):
-        lines.append(
-            f"  {signal:<{width}}  {low:12.5g} ... {high:<12.5g} at the end {last:.5g} {unit.removeprefix('1')}"
-        )
+        words = "" if unit == "1" else unit
+        lines.append(f"  {signal:<{width}}  {low:12.5g} ... {high:<12.5g} at the end {last:.5g} {words}")
     return "\n".join(line.rstrip() for line in lines)
 
 

@@ -78,8 +78,9 @@ def signals_in_words(check: DataCheck) -> list[list[str]]:
     """Name, role, unit, quantity, variable, noise and resolution of every signal, in words."""
     rows = []
     for signal in check.dataset.signals:
+        unit = "" if signal.unit == "1" else signal.unit
         noise, step = (
-            f"no {what} specified" if value is None else f"{what} {value:.3g} {signal.unit.removeprefix('1')}".rstrip()
+            f"no {what} specified" if value is None else f"{what} {value:.3g} {unit}".rstrip()
             for what, value in (("noise", signal.noise), ("resolution", signal.resolution))
         )
         rows.append([signal.name, signal.role, signal.unit, signal.quantity, signal.variable, noise, step])

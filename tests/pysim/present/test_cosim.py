@@ -43,6 +43,11 @@ def test_text_has_pace_and_ranges() -> None:
     assert stopped.startswith("Rig stopped: rig: it broke at 0.5 s; recorded up to 0 s.")
 
 
+def test_a_rate_keeps_its_unit_and_a_plain_number_has_none() -> None:
+    rate, number = text(CoSimulation("Rig", record(("m.f", "m.n"), ("1/s", "1")), 0.5)).splitlines()[1:]
+    assert (rate.split()[-1], number.split()[-1]) == ("1/s", "2")
+
+
 def test_data_are_numbers() -> None:
     found = data(CoSimulation("Rig", RECORD, 0.5))
     assert found["signals"] == [{"name": "rig.p", "unit": "Pa", "low": 1.0, "high": 5.0, "end": 3.0}]
