@@ -365,11 +365,6 @@ def load(
         if extra:
             raise BadInput(f"{source} has a dataset.toml that says what its logs are; leave out {', '.join(extra)}")
         return Data.of(read_described(source))
-    for what, own in columns.items():
-        if not own:
-            raise BadInput(
-                f'which columns are {what}? Name them: {what}=["..."], as the headings have them', argument=what
-            )
     found = load_logs(source, **columns, **given)
     return Data(found.dataset, found.dataset, (), found.units, found.units, found.remarks)
 

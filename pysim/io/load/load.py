@@ -40,8 +40,8 @@ class Loaded:
 def load_logs(
     source: Any,
     *,
-    inputs: Names,
-    outputs: Names,
+    inputs: Names | None,
+    outputs: Names | None,
     time: str | None = None,
     units: Mapping[str, str] | None = None,
     noise: Mapping[str, float] | None = None,
@@ -64,14 +64,15 @@ def load_logs(
         BadInput: what cannot be read, is not there, or must be asked for, with its place and the cure.
     """
     units, noise, variables, hold = units or {}, noise or {}, variables or {}, hold or {}
-    given, answers = _named(inputs, "inputs"), _named(outputs, "outputs")
+    logs = tables_of(source)
+    given, answers = (_named(own, what, logs[0]) for own, what in ((inputs, "inputs"), (outputs, "outputs")))
     wanted = given | answers
     roles = dict.fromkeys(given, "input") | dict.fromkeys(answers, "output")
     if twice := [name for name in given if name in answers]:
         raise BadInput(f"{', '.join(twice)}: input or output? Name it once")
     for what, own in {"noise": noise, "variables": variables, "hold": hold}.items():
         _refuse_strangers(what, own, wanted)
-    tables = _holding(tables_of(source), wanted)
+    tables = _holding(logs, wanted)
     headings = [heading for table in tables for heading in table.headings]
     _refuse_strangers("units", units, [*wanted, *headings, *(name_and_unit(heading)[0] for heading in headings)])
     seen: dict[str, Scale] = {}
@@ -99,10 +100,11 @@ def load_logs(
     return Loaded(Dataset(title, "", "", signals, tuple(records)), shown, remarks)
 
 
-def _named(names: Names, what: str) -> dict[str, str]:
+def _named(names: Names | None, what: str, table: RawTable) -> dict[str, str]:
     """Signal -> what the user calls its column."""
     if not names:
-        raise BadInput(f"{what} are missing; name at least one column")
+        there = ", ".join(table.headings)
+        raise BadInput(f"{table.place}: which columns are {what}? Name at least one of {there}", argument=what)
     if isinstance(names, Mapping):
         return dict(names)
     found: dict[str, str] = {}

@@ -82,7 +82,8 @@ def _paths(place: str) -> list[Path]:
         return [path]
     found = sorted(Path(one) for one in glob(str(path), recursive=True))
     if not found:
-        near = sorted(one.name for one in path.parent.glob(f"*{path.suffix}"))[:5] if path.parent.is_dir() else []
+        beside = path.parent.glob(f"[!.]*{path.suffix}") if path.parent.is_dir() else []
+        near = sorted(one.name for one in beside)[:5]
         cure = f"there is {', '.join(near)}" if near else "correct the path"
         raise BadInput(f"there is no file {place}; {cure}")
     return [one for one in found if one.is_file()]

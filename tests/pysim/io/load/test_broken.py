@@ -287,3 +287,15 @@ def test_refused_with_file_place_and_cure(name: str, tmp_path: Path) -> None:
 
 def test_there_are_thirty_and_more() -> None:
     assert len(READ) + len(REFUSED) >= 30
+
+
+def test_what_is_asked_first_is_whether_the_logs_are_there(tmp_path: Path) -> None:
+    """Then which of their columns are signals, by the headings that are there."""
+    of_lines(HEAD, *LINES)(tmp_path)
+    (tmp_path / ".hidden.csv").write_text("")
+    with pytest.raises(BadInput, match=r"there is no file .*lgo\.csv; there is log\.csv$"):
+        load(tmp_path / "lgo.csv")
+    for given, missing in (({}, "inputs"), ({"inputs": "F"}, "outputs")):
+        with pytest.raises(BadInput, match=re.escape("t [s], F [kN], x [mm]")) as refused:
+            load(tmp_path / "log.csv", **given)
+        assert refused.value.argument == missing
