@@ -147,6 +147,30 @@ def test_a_value_behind_attributes_stands_where_it_is_kept(model: str, tmp_path:
     assert list(stiffnesses(model, tmp_path).values()) == [3]
 
 
+@pytest.mark.parametrize(
+    "model",
+    [
+        "model M Sprung s(slot.k = 3); end M;",
+        "model M Sprung s(x.start = max(3, 4)); end M;",
+        "model M Sprung s(final slot.k(max = 9) = 3); end M;",
+        "model M Train t(cart(x.start = 3)); end M;",
+        "model M Train t(cart.x(start = 3), cart(x(fixed = true))); end M;",
+        "model M extends Sprung(slot.k = 3); end M;",
+        "model N = Sprung(slot.k = 3); model M N n; end M;",
+    ],
+)
+def test_a_name_with_dots_is_refused_in_a_modification(model: str, tmp_path: Path) -> None:
+    with pytest.raises(BuildError, match=rf"L\.mo:{OWN_LINE}: the compiler would lose"):
+        stiffnesses(model, tmp_path)
+
+
+def test_names_with_dots_may_stand_in_the_values_of_a_modification(tmp_path: Path) -> None:
+    model = "model M Sprung a; Sprung b(slot(k = if a.slot.k == 4 then max(a.slot.k, 5) else 6)); end M;"
+    file = tmp_path / "L.mo"
+    file.write_text(LIBRARY % model, encoding="utf-8")
+    assert [v.name for v in load("L.M", [file]).variables if v.name.endswith("k")] == ["a.slot.k", "b.slot.k"]
+
+
 SLOTS = """
   model K extends Slot; parameter Real k = 1; parameter Real o = 2; equation f = k*o*x; end K;
   partial model Bare extends Slot; parameter Real k = 1; end Bare;

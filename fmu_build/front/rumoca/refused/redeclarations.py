@@ -12,16 +12,17 @@ What stands behind `constrainedby` holds for what a part is redeclared to, and n
 `constrainedby` of its own the part's own modification holds, but rumoca lets it do so where there is one too. For
 `replaceable model X = Y(k = 1)` neither holds.
 
-Of `part(attribute = a) = value` nothing is left in an extends clause, nor inside another modification.
+Of `part(attribute = a) = value` nothing is left in an extends clause, nor inside another modification. Of
+`part.attribute = a` nothing is left in the modification of a component.
 """
 
 from collections.abc import Mapping
 
 from fmu_build.text.classes import ClassText
-from fmu_build.text.declarations import Declaration, Kind, Modifier, modifiers
+from fmu_build.text.declarations import PREFIXES, Declaration, Kind, Modifier, modifiers
 from fmu_build.text.lookup import Libraries, is_use
 from fmu_build.text.modify import Redeclaration, redeclarations
-from fmu_build.text.tokens import bracket, dotted_name
+from fmu_build.text.tokens import Tokens, bracket, dotted_name, split, split_name
 
 MODIFIABLE = ("model", "block", "class", "record")
 
@@ -38,6 +39,7 @@ def refuse_lost_redeclarations(source: ClassText, classes: Libraries) -> None:
             _check_constraint(declaration, here, classes)
             if is_use(declaration):
                 _check_values(declaration, here)
+                _check_dots(declaration.arguments, here)
                 used = classes.resolve(declaration.class_name, here)
                 for found in redeclarations(declaration.modification):
                     _check(found, declaration, used, here, classes)
@@ -98,6 +100,23 @@ def _check_values(declaration: Declaration, here: ClassText) -> None:
                     f"class of their own, and the value, {name} = ..., in one that extends it",
                     offset,
                 )
+
+
+def _check_dots(arguments: Tokens, here: ClassText) -> None:
+    """Refuse names with dots on the left of a modification's equals signs."""
+    for part in split(arguments, ","):
+        begin = next((k for k, token in enumerate(part) if token.text not in PREFIXES), 0)
+        name, behind = dotted_name(part, begin)
+        if "." in name and part[behind : behind + 1] and part[behind].text in ("=", "("):
+            parts = split_name(name)
+            value = " = ..." if part[behind].text == "=" else "(...)"
+            raise here.error(
+                f"the compiler would lose what is given to {name} here; write it in brackets, "
+                f"{'('.join(parts)}{value}{')' * (len(parts) - 1)}",
+                part[begin].start,
+            )
+        for modifier in modifiers(part).values():
+            _check_dots(modifier.inside, here)
 
 
 def _check(
