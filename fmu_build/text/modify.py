@@ -93,6 +93,7 @@ class Redeclaration:
     modification: Tokens  # of the new class or part, with its brackets
     kind: str  # of the class, as "package"; empty for a part
     is_nested: bool  # inside the modification of a part
+    has_value: bool  # behind an equals sign; of a part
     start: int
 
 
@@ -111,10 +112,13 @@ def _redeclaration(tokens: Tokens, at: int, is_nested: bool, start: int) -> Rede
     if at < len(tokens) and tokens[at].text in CLASS_KINDS:
         part, behind = dotted_name(tokens, at + 1)
         class_name, behind = dotted_name(tokens, behind + 1)
-        return Redeclaration(part, class_name, bracket(tokens, behind), tokens[at].text, is_nested, start)
+        return Redeclaration(part, class_name, bracket(tokens, behind), tokens[at].text, is_nested, False, start)
     class_name, behind = dotted_name(tokens, at)
     part, behind = dotted_name(tokens, _behind_sizes(tokens, behind))
-    return Redeclaration(part, class_name, bracket(tokens, _behind_sizes(tokens, behind)), "", is_nested, start)
+    at = _behind_sizes(tokens, behind)
+    given = bracket(tokens, at)
+    has_value = [token.text for token in tokens[at + len(given) :][:1]] == ["="]
+    return Redeclaration(part, class_name, given, "", is_nested, has_value, start)
 
 
 def _behind_sizes(tokens: Tokens, at: int) -> int:

@@ -183,6 +183,8 @@ SLOTS = """
   model ByClass replaceable model T = Bent constrainedby Bare(k = 3); T s; equation s.x = 1; end ByClass;
   model Short replaceable model T = Bent(k = 3); T s; equation s.x = 1; end Short;
   model Long replaceable model T extends Bent(k = 3); end T; T s; equation s.x = 1; end Long;
+  type Length = Real(unit = "m", start = 7);
+  model Valued replaceable parameter Real y = 1; replaceable Real v = 1; end Valued;
   model Free replaceable model T = Bent(k = 3) constrainedby Slot; T s; equation s.x = 1; end Free;
 """.replace("\n", " ")
 
@@ -197,6 +199,10 @@ SLOTS = """
         ("model M Dropped a(redeclare K s(o = 4)); end M;", "keep k of the part s"),
         ("model M extends Dropped(redeclare K s(o = 4)); end M;", "keep k of the part s"),
         ("model M Short a(redeclare model T = Bent); end M;", "lose k of the class T"),
+        ("model M Valued a(redeclare parameter Real y = 3); end M;", "lose the value of y"),
+        ("model M Valued a[2](redeclare parameter Real y(min = 0) = 3); end M;", "lose the value of y"),
+        ("model M extends Valued(redeclare Real v = 3); end M;", "lose the value of v"),
+        ("model M Valued a(redeclare Length y); end M;", "without the attributes of Length"),
     ],
 )
 def test_a_modification_that_would_be_lost_or_kept_is_refused(model: str, message: str, tmp_path: Path) -> None:
@@ -221,6 +227,15 @@ def test_a_modification_that_would_be_lost_or_kept_is_refused(model: str, messag
 )
 def test_modifications_of_what_is_replaceable_hold_as_modelica_says(model: str, k: float, tmp_path: Path) -> None:
     assert list(stiffnesses(SLOTS + model, tmp_path).values()) == [k]
+
+
+def test_a_value_is_kept_that_is_given_to_the_class_of_a_redeclaration(tmp_path: Path) -> None:
+    model = "model N extends Valued(redeclare parameter Real y(min = 0)); end N; "
+    model += "model M N k(y = 3); extends N(y = 4); end M;"
+    file = tmp_path / "L.mo"
+    file.write_text(LIBRARY % (SLOTS + model), encoding="utf-8")
+    values = {v.name: v.binding.value for v in load("L.M", [file]).variables if v.name.endswith("y")}
+    assert values == {"k.y": 3, "y": 4}
 
 
 def test_a_class_that_cannot_replace_another_is_refused_with_the_cure(tmp_path: Path) -> None:

@@ -12,12 +12,14 @@ What stands behind `constrainedby` holds for what a part is redeclared to, and n
 `constrainedby` of its own the part's own modification holds, but rumoca lets it do so where there is one too. For
 `replaceable model X = Y(k = 1)` neither holds.
 
-Of `part(attribute = a) = value` nothing is left in an extends clause, nor inside another modification. Of
+Of `redeclare X part = value` the value is lost, and the attributes of X where the part is of a predefined type. Of
+`part(attribute = a) = value` nothing is left in an extends clause, nor inside another modification. Of
 `part.attribute = a` nothing is left in the modification of a component.
 """
 
 from collections.abc import Mapping
 
+from fmu_build.front.rumoca.refused.miscounted import PREDEFINED
 from fmu_build.text.classes import ClassText
 from fmu_build.text.declarations import PREFIXES, Declaration, Kind, Modifier, modifiers
 from fmu_build.text.lookup import Libraries, is_use
@@ -144,6 +146,12 @@ def _check(
             f"{owner.full_name} instead, with the modifications that {used.full_name} makes",
             found.start,
         )
+    if found.has_value:
+        raise here.error(
+            f"the compiler would lose the value of {found.part} here; redeclare it without one in a class that extends "
+            f"{used.full_name}, and give the value, {found.part} = ..., to that class",
+            found.start,
+        )
     if found.kind in MODIFIABLE and found.modification:
         raise here.error(
             f"the compiler would lose the modification of {found.class_name} here; write it as an element of its own, "
@@ -156,6 +164,12 @@ def _check(
 def _check_what_it_replaces(found: Redeclaration, replaced: Declaration, owner: ClassText, here: ClassText) -> None:
     """Refuse where a modification of the part replaced holds for the new one, or does not, contrary to Modelica."""
     if replaced.kind is Kind.COMPONENT:
+        if replaced.class_name in PREDEFINED and found.class_name not in PREDEFINED:
+            raise here.error(
+                f"the compiler would leave {found.part} a {replaced.class_name} without the attributes of "
+                f"{found.class_name}; let {owner.full_name} declare it with a type of its own, or give them here",
+                found.start,
+            )
         given = {**_constraint(replaced), **modifiers(found.modification[1:-1])}
         kept = [name for name in replaced.modifiers if name not in given]
         if replaced.constraint and kept:
