@@ -13,6 +13,7 @@ from fmu_build.front.rumoca.form.places import Places
 from fmu_build.front.rumoca.refused.actions import refuse_lost_actions
 from fmu_build.front.rumoca.refused.conditions import refuse_folded_conditions
 from fmu_build.front.rumoca.refused.constants import refuse_mixed_constants
+from fmu_build.front.rumoca.refused.elements import refuse_mixed_indices
 from fmu_build.front.rumoca.refused.enormous import refuse_enormous_models, refuse_enormous_texts
 from fmu_build.front.rumoca.refused.miscounted import miscounted
 from fmu_build.front.rumoca.refused.overrides import refuse_unknown_overrides
@@ -42,6 +43,7 @@ class Refusal(Generic[Check]):
 TEXT: tuple[Refusal[Callable[[ClassText, Libraries], None]], ...] = (
     Refusal("loses redeclarations, and modifications in them", "0.10.2", refuse_lost_redeclarations),
     Refusal("gives constants of a package the values of another", "0.10.2", refuse_mixed_constants),
+    Refusal("mixes up the indices of arrays inside of arrays of parts", "0.10.2", refuse_mixed_indices),
     Refusal("writes out arrays, ranges and chains of any length", "0.10.2", refuse_enormous_texts),
 )
 # After it, from its own form of the model.
