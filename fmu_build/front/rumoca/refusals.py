@@ -43,7 +43,11 @@ class Refusal(Generic[Check]):
 TEXT: tuple[Refusal[Callable[[ClassText, Libraries], None]], ...] = (
     Refusal("loses redeclarations, and modifications in them", "0.10.2", refuse_lost_redeclarations),
     Refusal("gives constants of a package the values of another", "0.10.2", refuse_mixed_constants),
-    Refusal("mixes up the indices of arrays inside of arrays of parts", "0.10.2", refuse_mixed_indices),
+    Refusal(
+        "mixes up the dimensions of arrays of parts, and of those with several iterators",
+        "0.10.2",
+        refuse_mixed_indices,
+    ),
     Refusal("writes out arrays, ranges and chains of any length", "0.10.2", refuse_enormous_texts),
 )
 # After it, from its own form of the model.

@@ -1,4 +1,4 @@
-"""Indices behind an array of parts are refused, since the compiler would take others; all other indices are right."""
+"""Indices and iterators of which the compiler would mix up the dimensions are refused; all others are right."""
 
 import pytest
 
@@ -56,12 +56,22 @@ def test_so_is_one_in_a_function() -> None:
 
 
 @pytest.mark.parametrize(
+    "value", ["{i + 10*j for j in 1:2, i in 1:2}*{1, 0}", "f(r) + {sum({i*j, 1}) for j in 1:2, i in 1:1}"]
+)
+def test_several_iterators_in_an_array_are_refused(value: str) -> None:
+    with pytest.raises(BuildError, match="nest them"):
+        model(f"y = {value}; {CONNECTED}")
+
+
+@pytest.mark.parametrize(
     ("value", "expected"),
     [
         ("{r[i].a[1] for i in 1:2}", [1, 3]),
         ("r[2].a", [3, 4]),
         ("r[k[1]].a[:]", [3, 4]),
         ("r[2:-1:1].n", [6, 5]),
+        ("{{i + 10*j for j in 1:2} for i in 1:2}*{1, 0}", [11, 12]),
+        ("{sum(i*j for i in 1:2, j in 1:3), sum({i, 3}*{1, 2} for i in 1:2)}", [18, 15]),
         ("{r[1].n, x.r[2].a[1]}", [5, 3]),
     ],
 )

@@ -1,7 +1,8 @@
-"""Refuses indices into arrays inside of arrays of parts, which rumoca 0.10.2 would count along the wrong dimension.
+"""Refuses arrays of which rumoca 0.10.2 would take or lay out the elements along the wrong dimension.
 
 In `r.a[1]`, of an array of parts r, it takes all of `r[1].a` instead of the first element of each `a`; in `r[2:3].a[1]`
-all of `r[2].a`. In `connect` it does the same.
+all of `r[2].a`. In `connect` it does the same. `{... for i in 1:3, j in 1:2}`, which has two rows, becomes a vector, or
+an array of three rows.
 """
 
 from collections.abc import Iterator
@@ -22,6 +23,13 @@ def refuse_mixed_indices(source: ClassText, classes: Libraries) -> None:
     for here in chain(classes.used(source), classes.reached(source, _parts_and_functions)):
         tokens = here.own_tokens
         for at, token in enumerate(tokens):
+            elements = list(split(bracket(tokens, at, "{")[1:-1], ","))
+            if len(elements) > 1 and len(list(split(elements[0], "for"))) > 1:
+                raise here.error(
+                    "the compiler would lay out an array with several iterators along the wrong dimensions; nest them, "
+                    "as in {{a[i, j] for j in 1:2} for i in 1:3}",
+                    token.start,
+                )
             path = list(_path(tokens, at)) if at == 0 or tokens[at - 1].text != "." else []
             several = _several(path, here, classes) if any(indices for _, indices in path[1:]) else ""
             if several:
