@@ -15,6 +15,8 @@ from fmu_build.errors import BuildError
 from fmu_build.lower.ode_model import DefaultExperiment, OdeModel, ScalarType, Variable
 
 GENERATION_TOOL = "fmu_build"
+_ESCAPES = {"\a": r"\a", "\b": r"\b", "\f": r"\f", "\v": r"\v"}  # as Modelica writes them
+_NOT_IN_XML = re.compile("[\x00-\x08\x0b\x0c\x0e-\x1f\ufffe\uffff]")
 LOG_CATEGORIES = {  # as in runtime/src/log.c
     "logStatusError": "Calls that cannot be carried out",
     "logStatusWarning": "Assertions of level warning that do not hold",
@@ -43,9 +45,14 @@ def model_identifier(class_name: str) -> str:
 
 
 def text_of(root: Element) -> str:
-    """The file's text: indented, in a fixed order, the same bytes for the same content."""
+    r"""The file's text: indented, in a fixed order, the same bytes for the same content.
+
+    Of a sign that XML does not have, as in "\alpha", stays how Modelica writes it.
+    """
     ElementTree.indent(root)
-    return '<?xml version="1.0" encoding="UTF-8"?>\n' + ElementTree.tostring(root, encoding="unicode") + "\n"
+    text = ElementTree.tostring(root, encoding="unicode")
+    text = _NOT_IN_XML.sub(lambda sign: _ESCAPES.get(sign[0], "\N{REPLACEMENT CHARACTER}"), text)
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
 
 
 def add(parent: Element, tag: str, **attributes: str | None) -> Element:

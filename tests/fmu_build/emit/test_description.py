@@ -34,6 +34,14 @@ def variables(model, fmi):
 
 
 @pytest.mark.parametrize("fmi", [2, 3])
+def test_a_description_may_hold_what_xml_does_not_have(fmi):
+    s = symbols(p=1)
+    angle = real("angle", "p", 0, PARAMETER, start=1.0, description="Angle \alpha, \tin\nrad \x00")
+    found = ElementTree.fromstring(describe(ode_model("M", s, (angle,)), fmi)).iter()
+    assert "Angle \\alpha, \tin\nrad \N{REPLACEMENT CHARACTER}" in [element.get("description") for element in found]
+
+
+@pytest.mark.parametrize("fmi", [2, 3])
 @pytest.mark.parametrize("build", ode_models.ALL)
 def test_fmpy_finds_nothing(build, fmi, tmp_path):
     with zipfile.ZipFile(tmp_path / "m.fmu", "w") as archive:
