@@ -25,6 +25,7 @@ def compiled(
     Raises:
         BuildError, TextError: the class cannot be compiled, or not rightly.
     """
+    from fmu_build.front.rumoca.evaluated import with_evaluated
     from fmu_build.front.rumoca.form import to_flat_model
     from fmu_build.front.rumoca.refusals import FORM, MODEL, TEXT
     from fmu_build.front.rumoca.session import compile_class
@@ -44,4 +45,4 @@ def compiled(
     )
     for behind in MODEL:
         behind.check(source, classes, model, overrides)
-    return model
+    return with_evaluated(model, dae, flat, source, classes)

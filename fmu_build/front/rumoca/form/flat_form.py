@@ -70,11 +70,11 @@ class FlatForm:
         """Arguments by place, also where a condition names a variable that its equation makes a sample()."""
         samples = defaultdict(list)
         for form in ("equations", "structured_equations", "when_chains", "algorithms"):
-            for node in _walk(self._flat[form]):
+            for node in walk(self._flat[form]):
                 if node.get("function") == "Sample":
                     samples[span_key(node)].append(self._arguments(node))
         named = self._named_samples()
-        for node in _walk(self._flat["when_chains"]):
+        for node in walk(self._flat["when_chains"]):
             reference = node.get("VarRef")
             if reference and reference["name"]["name"] in named:
                 samples[span_key(reference)].append(named[reference["name"]["name"]])
@@ -110,7 +110,7 @@ class FlatForm:
     def _read_when_chains(self) -> None:
         for chain in self._flat["when_chains"]:
             self._read_chain([chain["first"], *chain.get("else_when", [])], "equations")
-        for node in _walk(self._flat["algorithms"]):
+        for node in walk(self._flat["algorithms"]):
             if "When" in node:
                 self._read_chain(node["When"]["blocks"], "stmts")
 
@@ -118,7 +118,7 @@ class FlatForm:
         previous = None
         for block in blocks:
             branch = WhenBranch(previous)
-            for node in _walk(block[body]):
+            for node in walk(block[body]):
                 if "Assign" in node:
                     branch.targets.add(node["Assign"]["target"])
                 if "Assignment" in node:
@@ -135,7 +135,7 @@ def _component_name(component: Mapping[str, Any]) -> str:
     return ".".join(part["ident"] for part in component["parts"])
 
 
-def _walk(tree: Any) -> Iterator[Mapping[str, Any]]:
+def walk(tree: Any) -> Iterator[Mapping[str, Any]]:
     """Every mapping inside, in written order."""
     waiting = [tree]
     while waiting:

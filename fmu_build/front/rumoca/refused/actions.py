@@ -80,14 +80,19 @@ def _free_name(statement: Statement, iterators: Set[str], here: ClassText, class
     for name in _names(tuple(token for condition in statement.conditions for token in condition)):
         if name in _VARYING:
             return name
-        first, *rest = name.split(".")
-        for owner, declaration in classes.elements(first, here) if first not in iterators else ():
-            for variable in model.variables if declaration.kind is Kind.COMPONENT else ():
-                is_fixed = variable.role in (Role.STRUCTURAL, Role.CONSTANT)
-                is_meant = _is_named(variable, name) and (rest or _is_of(variable.span, owner, declaration))
-                if is_meant and not is_fixed:
-                    return name
+        for variable in variables_meant(name, here, classes, model) if name.split(".")[0] not in iterators else ():
+            if variable.role not in (Role.STRUCTURAL, Role.CONSTANT):
+                return name
     return ""
+
+
+def variables_meant(name: str, here: ClassText, classes: Libraries, model: FlatModel) -> Iterator[FlatVariable]:
+    """What a name with dots and without indices, as it stands in a class, may mean: one of each part of that class."""
+    first, *rest = name.split(".")
+    for owner, declaration in classes.elements(first, here):
+        for variable in model.variables if declaration.kind is Kind.COMPONENT else ():
+            if _is_named(variable, name) and (rest or _is_of(variable.span, owner, declaration)):
+                yield variable
 
 
 def _names(tokens: Tokens) -> Iterator[str]:
