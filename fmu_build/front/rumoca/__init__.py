@@ -25,6 +25,7 @@ def compiled(
     Raises:
         BuildError, TextError: the class cannot be compiled, or not rightly.
     """
+    from fmu_build.front.rumoca.copied import with_followed_records
     from fmu_build.front.rumoca.evaluated import with_evaluated
     from fmu_build.front.rumoca.form import to_flat_model
     from fmu_build.front.rumoca.refusals import FORM, MODEL, TEXT
@@ -45,4 +46,5 @@ def compiled(
     )
     for behind in MODEL:
         behind.check(source, classes, model, overrides)
+    model = with_followed_records(model, flat, source, classes)
     return with_evaluated(model, dae, flat, source, classes)
