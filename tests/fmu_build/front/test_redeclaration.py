@@ -245,3 +245,42 @@ def test_a_class_that_cannot_replace_another_is_refused_with_the_cure(tmp_path: 
     )
     with pytest.raises(BuildError, match=r"is not a subtype of .*; name a class that both extend behind constrainedby"):
         stiffnesses(SLOTS + model, tmp_path)
+
+
+NAMESAKES = """
+  model P Real x(start = 1, fixed = true); equation der(x) = 0; end P;
+  model W Real x(start = 2, fixed = true); P own(x(start = 7)); P plain; equation der(x) = 0; end W;
+  model V extends W; end V;
+  model T W w; end T;
+  model Four extends W(x(start = 4)); end Four;
+""".replace("\n", " ")
+
+
+@pytest.mark.parametrize(
+    "model",
+    [
+        "model M W w(x(start = 4)); end M;",
+        "model M W w[2](x(start = {4, 5})); end M;",
+        "model M V v(x(start = 4)); end M;",
+        "model M T t(w(x(start = 4))); end M;",
+        "model M extends T(w(x(start = 4))); end M;",
+    ],
+)
+def test_a_modification_that_a_namesake_would_take_too_is_refused(model: str, tmp_path: Path) -> None:
+    with pytest.raises(BuildError, match=rf"L\.mo:{OWN_LINE}: the compiler would give x\(start = .*\) to own.x too"):
+        stiffnesses(NAMESAKES + model, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("model", "starts"),
+    [
+        ("model M Four w; end M;", [4, 7, 1]),
+        ("model M extends W(x(start = 4)); end M;", [4, 7, 1]),
+        ("model M W w(x(start = 4), own(x(start = 9))); end M;", [4, 9, 1]),
+        ("model M W w(plain(x(start = 4))); end M;", [2, 7, 4]),
+    ],
+)
+def test_one_that_only_its_own_name_takes_holds(model: str, starts: list[int], tmp_path: Path) -> None:
+    file = tmp_path / "L.mo"
+    file.write_text(LIBRARY % (NAMESAKES + model), encoding="utf-8")
+    assert [v.start.value for v in load("L.M", [file]).variables] == starts

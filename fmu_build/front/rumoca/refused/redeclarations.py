@@ -15,9 +15,11 @@ What stands behind `constrainedby` holds for what a part is redeclared to, and n
 Of `redeclare X part = value` the value is lost, and the attributes of X where the part is of a predefined type. Of
 `part(attribute = a) = value` nothing is left in an extends clause, nor inside another modification. Of
 `part.attribute = a` nothing is left in the modification of a component.
+
+Of `part(x(start = 1))` an x of the parts of that part takes the start too, if it has a modification.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 
 from fmu_build.front.rumoca.refused.miscounted import PREDEFINED
 from fmu_build.text.classes import ClassText
@@ -43,6 +45,7 @@ def refuse_lost_redeclarations(source: ClassText, classes: Libraries) -> None:
                 _check_values(declaration, here)
                 _check_dots(declaration.arguments, here)
                 used = classes.resolve(declaration.class_name, here)
+                _check_namesakes(declaration.modifiers, declaration, used, here, classes)
                 for found in redeclarations(declaration.modification):
                     _check(found, declaration, used, here, classes)
 
@@ -119,6 +122,35 @@ def _check_dots(arguments: Tokens, here: ClassText) -> None:
             )
         for modifier in modifiers(part).values():
             _check_dots(modifier.inside, here)
+
+
+def _check_namesakes(
+    given: Mapping[str, Modifier], declaration: Declaration, used: ClassText | None, here: ClassText, classes: Libraries
+) -> None:
+    """Refuse `part(x(start = 1))` where the class of the part, which is `used`, modifies an x of its own parts."""
+    if used is None:
+        return
+    is_part = declaration.kind is Kind.COMPONENT or given != declaration.modifiers
+    for name, modifier in given.items():
+        for part, inside in _modified_parts(used, classes) if modifier.inside and is_part else ():
+            if part not in given and name in inside and inside[name].inside:
+                raise here.error(
+                    f"the compiler would give {name}({here.text(modifier.inside)}) to {part}.{name} too; write it in a "
+                    f"class that extends {used.full_name}, and use that one here",
+                    declaration.start,
+                )
+        for owner, element in classes.elements(name, used):
+            inner = classes.resolve(element.class_name, owner)
+            _check_namesakes(modifiers(modifier.inside), declaration, inner, here, classes)
+
+
+def _modified_parts(used: ClassText, classes: Libraries) -> Iterator[tuple[str, Mapping[str, Modifier]]]:
+    for one in classes.ancestry(used):
+        for declaration in one.declarations:
+            if declaration.kind is Kind.COMPONENT:
+                yield declaration.name, declaration.modifiers
+            elif declaration.kind is Kind.EXTENDS:
+                yield from ((name, modifiers(m.inside)) for name, m in declaration.modifiers.items())
 
 
 def _check(
