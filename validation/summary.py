@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
@@ -26,7 +27,7 @@ def record(root: Path, results: Iterable[CaseResult]) -> Path:
 
 
 def short_summary(results: Iterable[CaseResult]) -> str:
-    """A row per group, and which cases fail: of the commit that was recorded last, and of no other."""
+    """A row per group, and which cases fail: of the commit that recorded most cases, and of no other."""
     last = newest(results)
     commit = _commit(last)
     now = {name: result for name, result in last.items() if result.commit == commit}
@@ -39,7 +40,10 @@ def short_summary(results: Iterable[CaseResult]) -> str:
         kept = f"{sum(finding.holds for finding in checks)} of {len(checks)}" if checks else ""
         rows.append([title, f"{len(done)} of {len(names)}", *counts, kept])
     head = ["", "cases recorded", "claims that hold", "fail", "skipped", "regression checks that hold"]
-    words = (f"Counted: what commit {commit or '-'} recorded. {_older(last, commit)} {_missing(last)}", _failing(now))
+    words = (
+        f"Counted: what commit {commit or '-'} recorded. {_of_others(last, commit)} {_missing(last)}",
+        _failing(now),
+    )
     return "\n".join([*_table(head, rows), "", *words, ""])
 
 
@@ -73,7 +77,7 @@ def _row(name: str, label: str, result: CaseResult | None, commit: str) -> list[
         return [label, CASES[name].about, "", "", "", "", "", "not recorded", "", ""]
     counts = [str(result.count(verdict)) for verdict in (HOLDS, FAILS, SKIPPED)]
     checks = f"{sum(finding.holds for finding in result.checks)} of {len(result.checks)}" if result.checks else ""
-    of = result.commit if result.commit == commit else f"older: {result.commit or '-'}"
+    of = result.commit if result.commit == commit else f"other: {result.commit or '-'}"
     return [label, CASES[name].about, *counts, checks, f"{result.cpu:.0f}", result.date[:10], of, _few(result.seeds)]
 
 
@@ -84,14 +88,17 @@ def _few(seeds: str) -> str:
 
 
 def _commit(last: Mapping[str, CaseResult]) -> str:
-    """That of the newest record."""
-    return max(last.values(), key=lambda result: result.date).commit if last else ""
+    """The one that recorded most cases, the newest of those."""
+    count = Counter(result.commit for result in last.values())
+    return max(last.values(), key=lambda result: (count[result.commit], result.date)).commit if last else ""
 
 
-def _older(last: Mapping[str, CaseResult], commit: str) -> str:
+def _of_others(last: Mapping[str, CaseResult], commit: str) -> str:
     """Which records another commit made, and that they are counted nowhere."""
-    older = [name for name, result in last.items() if result.commit != commit]
-    return f"Older, and counted nowhere: {', '.join(older)}." if older else "No record is older."
+    others = [name for name, result in last.items() if result.commit != commit]
+    return (
+        f"Of other commits, and counted nowhere: {', '.join(others)}." if others else "No record is of another commit."
+    )
 
 
 def _missing(last: Mapping[str, CaseResult]) -> str:

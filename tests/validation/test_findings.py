@@ -53,15 +53,24 @@ def test_a_regression_check_may_fail_and_is_no_claim() -> None:
     assert str(check).startswith("FAILS    regression check: ")
 
 
-def test_a_summary_counts_one_commit_and_names_what_is_older(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_summary_counts_one_commit_and_names_what_is_of_another(monkeypatch: pytest.MonkeyPatch) -> None:
     made_up.use(monkeypatch)
     now = replace(result("good", *GOOD, date="2026-02-01T00:00:00Z"), commit="new")
     old = replace(result("bad", *BAD), commit="old")
     written = full_summary([old, now])
     assert "| Methods on known answers | 1 of 4 | 1 | 0 | 1 |" in written
-    assert "Counted: what commit new recorded. Older, and counted nowhere: bad." in written
-    assert "| older: old |" in written
+    assert "Counted: what commit new recorded. Of other commits, and counted nowhere: bad." in written
+    assert "| other: old |" in written
     assert "No claim of these cases fails." in written
+
+
+def test_one_case_that_is_recorded_anew_leaves_the_commit_of_all_others_counted(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    made_up.use(monkeypatch)
+    whole = [replace(result(name, *GOOD), commit="whole") for name in ("good", "nan")]
+    later = replace(result("bad", *BAD, date="2030-01-01T00:00:00Z"), commit="later")
+    assert "Counted: what commit whole recorded." in full_summary([*whole, later])
 
 
 def test_seeds_of_a_run_are_noted(monkeypatch: pytest.MonkeyPatch) -> None:
