@@ -112,11 +112,14 @@ class Smoothness:
 
         Args:
             gram: (m, m) information of the data on the coefficients: J'J of the residual over its level, projected
-                off the model's parameters.
+                off the model's parameters. Where these imitate the whole curve, rounding is left of it, of either sign,
+                and the penalty stays.
         """
         rough = bends(self.knots).T @ bends(self.knots)
-        taken = self.bending * float(np.trace(np.linalg.solve(gram + self.precision, rough)))
         bent, typical = max(float(c @ rough @ c), 1e-300), float(np.trace(gram)) / c.size
+        if typical <= 0:
+            return self
+        taken = self.bending * float(np.trace(np.linalg.solve(gram + self.precision, rough)))
         weight = max(self.knots.size - 2 - taken, 1e-3) / bent
         return replace(self, bending=float(np.clip(weight, _LEAST * typical, _MOST * typical)))
 

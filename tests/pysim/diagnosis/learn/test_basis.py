@@ -77,3 +77,11 @@ def test_a_step_of_the_smoothness_comes_to_rest_where_restricted_likelihood_is_l
         values = -np.linalg.solve(gram + smooth.precision, right)
         smooth = smooth.moved(gram, values)
     assert smooth.edf(gram) == pytest.approx(best.edf, rel=0.05)
+
+
+def test_a_curve_that_the_parameters_imitate_keeps_its_penalty() -> None:
+    """Its information is the difference of two equal matrices, of which rounding of either sign is left."""
+    before = Smoothness(np.linspace(-1, 1, 5), 2.0, 1e-3)
+    after = before.moved(-1e-16 * np.eye(5), np.ones(5))
+    assert (after.bending, after.level) == (2.0, 1e-3)
+    assert np.all(np.isfinite(after.rows))
