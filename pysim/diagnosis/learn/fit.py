@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -22,7 +22,8 @@ from pysim.identify.greybox.residuals import Carried, with_rows
 
 Array = NDArray[np.float64]
 
-# Updates of the smoothness at most, and the change of the effective number of coefficients that ends them.
+# Updates of the smoothness and heats of a race at most, and the change of the effective number of coefficients that
+# ends the former.
 _ROUNDS, _SETTLED = 8, 0.1
 
 
@@ -205,6 +206,22 @@ def moved(one: LawFit, points: int) -> LawFit:
         return found
     memory = {**own.state.memory, "expected": found.fit.state.memory["expected"]}  # keeps the trust radius
     return replace(found, fit=replace(found.fit, state=replace(found.fit.state, memory=memory)))
+
+
+def raced(running: Sequence[LawFit], heat: Callable[[LawFit], LawFit]) -> list[LawFit]:
+    """Laws after a further heat each, and more for the best one and those that gained more in the last than they lack
+    to it; what could not go on is left out."""
+    done, ahead = list[LawFit](), list(running)
+    for _ in range(_ROUNDS):
+        moves = [(fit.cost, heat(fit)) for fit in ahead]
+        moves, ahead = [(before, fit) for before, fit in moves if fit.fit.good], []
+        best = min((fit.cost for _, fit in moves), default=0.0)
+        for before, fit in moves:
+            may_win = fit.cost == best or before - fit.cost > fit.cost - best
+            (ahead if may_win else done).append(fit)
+        if len(ahead) < 2:
+            break
+    return [*ahead, *done]
 
 
 def settled(one: LawFit, points: int, enough: float) -> LawFit:

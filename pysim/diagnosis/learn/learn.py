@@ -11,7 +11,7 @@ import numpy as np
 from pysim.diagnosis import rivals
 from pysim.diagnosis.floors import Floors
 from pysim.diagnosis.learn.basis import Array, closer
-from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, settled, started
+from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, raced, settled, started
 from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, over_all, remembering, screen, seen
 from pysim.diagnosis.left import tone_rate
 from pysim.diagnosis.refit import FinalFit, Pairs, converged, left_out
@@ -158,8 +158,8 @@ class Learner:
         return models, sorted([*best.values(), *more], key=lambda one: -one.score)
 
     def _raced(self, models: Mapping[str, LawModel], some: Sequence[Ranked], ranked: Sequence[Ranked]) -> list[LawFit]:
-        """Refit some laws for some iterations, those near the best of all that are ranked, and the finalists for some
-        more; the best first."""
+        """Refit some laws for some iterations, those near the best of all that are ranked, and the finalists as long as
+        they gain more than they lack to the best; the best first."""
         chosen = [one for one in some if one.score > 0 and one.score >= self._settings.near * ranked[0].score]
         running: list[LawFit] = []
         for one in chosen[: self._settings.most]:
@@ -168,8 +168,8 @@ class Learner:
             if fit.fit.good and fit.cost < self._rough.point.cost:
                 running.append(fit)
         running, finalists = self._ordered(running), self._session.settings.finalists
-        further = [moved(fit, self._settings.heat) for fit in running[:finalists]]
-        return self._ordered([*(fit for fit in further if fit.fit.good), *running[finalists:]])
+        further = raced(running[:finalists], lambda fit: moved(fit, self._settings.heat))
+        return self._ordered([*further, *running[finalists:]])
 
     def _ordered(self, fits: Sequence[LawFit]) -> list[LawFit]:
         """The laws, the lowest penalised cost first; all count with one lambda, as effects do in `Search`."""

@@ -1,13 +1,17 @@
 """What is learned from logs of plants whose missing law is known in closed form."""
 
-from dataclasses import replace
+import math
+from dataclasses import dataclass, replace
 from functools import cache
 from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
 from pysim.diagnosis import Session, diagnose, learn, session
+from pysim.diagnosis.learn.fit import raced
 from pysim.types import Dataset, MeasuredRecord, MeasuredSignal, NoteCode, Record, answer_data
 from pysim.types.answer import Diagnosis, Verdict
 from pysim.types.record_kind import Command
@@ -190,3 +194,27 @@ def test_a_curve_over_an_input_of_two_values_is_what_gain_and_offset_can_do_and_
     assert law.argument == "x"
     assert found.history[-1].fit is not None
     assert found.history[-1].fit < 1.1
+
+
+@dataclass(frozen=True)
+class Racer:
+    """A law of which the costs after each heat are known."""
+
+    name: str
+    costs: tuple[float, ...]
+    heats: int = 0
+
+    @property
+    def cost(self) -> float:
+        return self.costs[min(self.heats, len(self.costs) - 1)]
+
+    @property
+    def fit(self) -> SimpleNamespace:
+        return SimpleNamespace(good=math.isfinite(self.cost))
+
+
+def test_a_law_that_gains_more_than_it_lacks_is_not_beaten_yet() -> None:
+    quick, slow = Racer("quick", (40, 30, 29.9)), Racer("slow", (60, 42, 25, 20))
+    running: Any = [quick, slow, Racer("poor", (70, 69, 0)), Racer("stuck", (50, math.inf))]
+    ended: Any = raced(running, lambda one: replace(one, heats=one.heats + 1))
+    assert {one.name: (one.cost, one.heats) for one in ended} == {"slow": (25, 2), "quick": (29.9, 2), "poor": (69, 1)}
