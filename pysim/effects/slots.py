@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from fmu_build.text import ClassText, Declaration, Libraries
@@ -13,8 +13,10 @@ from fmu_build.text.statements import statements
 from fmu_build.text.tokens import split
 from fmu_build.text.write import quoted
 from pysim.effects._text import as_bad_input, changes, is_input, known_class, with_full_names
+from pysim.effects.catalogue import input_signal, read_pairs
 from pysim.types import BadInput, Effect
 
+_PAIR = ("first", "second")  # parts of a class that puts two effects into one slot
 _EQUALS = re.compile(r"(?<![<>=:])=(?!=)")  # of an equation
 _GIVEN = re.compile(r"(?:der\s*\(\s*(\w+)\s*\)|(\w+))\s*=")
 
@@ -126,6 +128,25 @@ def filling(slot: Slot, libraries: Sequence[Path], *, final: bool = True) -> Fil
     sides = [_EQUALS.split(one, maxsplit=1) for one in equations]
     pairs = [(s[0].strip(), s[1].strip()) if len(s) == 2 else ("", s[0]) for s in sides]
     return Filling(tuple(modifications), tuple(declared), tuple(pairs), tuple(initial))
+
+
+def paired(slot: Slot, effects: Sequence[Effect], libraries: Sequence[Path]) -> Filling:
+    """What fills a slot with two effects, `first` and `second` of a pair of the libraries.
+
+    Raises:
+        BadInput: no pair takes them, or one of them has a signal from outside the slot.
+    """
+    pair = next((one for one in read_pairs(*libraries) if one.slot == slot.name and not one.of), None)
+    library = Libraries(libraries)
+    texts = [library.full(one.class_name) for one in effects]
+    outside = any(input_signal(d) for text in texts if text for d in text.of_kind(Kind.COMPONENT))
+    if pair is None or len(effects) != 2 or outside:
+        names = " and ".join(one.name for one in effects)
+        raise BadInput(f"{names} cannot share a class of the slot {slot.name}; write one by hand")
+    parts, named = filling(replace(slot, filling=pair.class_name), libraries), dict(zip(_PAIR, effects, strict=True))
+    own = {name: f"{one.class_name} {name} {quoted(one.description)}" for name, one in named.items()}
+    declared = (next((own[name] for name in own if f" {name} " in one), one) for one in parts.declarations)
+    return replace(parts, declarations=tuple(declared))
 
 
 def _declared(one: Declaration, owner: ClassText, library: Libraries, final: bool) -> str:

@@ -200,14 +200,15 @@ class Diagnosis(Shown):
         """The model with what was found, refitted; it simulates the logs as the diagnosis began them."""
         effects = [one for one in self.found.effects if one.effect.class_name]
         laws = {law.slot: law for law in self.missing[: len(self.found.learned)] if law.found.modelica}
-        inner = {one.effect.slot: one.effect for one in effects if one.effect.slot in laws}  # part of the law's class
         grown = self.begun.with_effects(*(one.effect.name for one in effects if one.effect.slot not in laws))
         for slot, law in laws.items():
-            grown = grown.with_effects(law.to_effect(f"learned.{slot}", inner=inner.get(slot)))
+            inner = [one.effect for one in effects if one.effect.slot == slot]  # become part of the law's class
+            grown = grown.with_effects(law.to_effect(f"learned.{slot}", inner=inner))
         values = {e.name: e.value for e in self.found.estimates if "@" not in e.name}
         for one in effects:
-            name = f"learned.{one.effect.slot}" if one.effect.slot in inner else one.effect.name
-            ahead, place = grown.places[name], one.place
+            slot, place = one.effect.slot, one.place
+            part = place.removeprefix(slot)  # of a pair, ".first"
+            ahead = f"{grown.places[f'learned.{slot}']}{part}" if slot in laws else grown.places[one.effect.name]
             values = {name: value for name, value in values.items() if not name.startswith(f"{place}.")} | {
                 f"{ahead}.{p.name}": e.value for p, e in zip(one.effect.parameters, one.estimates, strict=True)
             }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -92,13 +93,13 @@ class Law(Shown):
         return law_figure(self.found, self.samples)
 
     def to_effect(
-        self, name: str, *, description: str = "", formula: bool = False, inner: Missing | None = None
+        self, name: str, *, description: str = "", formula: bool = False, inner: Sequence[Missing] = ()
     ) -> Effect:
         """An effect whose law this curve is, to add to a model; `save(folder)` writes its class into a library.
 
         Args:
             formula: write the formula, its amounts and widths as parameters, in place of the curve.
-            inner: effect of the same slot that becomes part of it, since a slot takes one.
+            inner: one or two effects of the same slot that become part of it, since a slot takes one.
         Raises:
             BadInput: no class can be written for the slot, the name makes no name of a class, or no formula fits.
         """
@@ -107,7 +108,7 @@ class Law(Shown):
         if self.model.variants is None:
             raise BadInput(f"nothing can be added to {self.model.name}: its class is in no library")
         variants = self.model.variants
-        within = "" if inner is None else f"|{inner.class_name}|{inner.law}"
+        within = "".join(f"|{one.class_name}|{one.law}" for one in inner)
         best = self._formula if formula else None
         if formula and best is None:
             raise BadInput(f"no formula fits the curve at {self.slot}; leave out formula=True", argument="formula")

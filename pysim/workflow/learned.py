@@ -51,7 +51,7 @@ def keep_law(
     *,
     description: str = "",
     formula: Formula | None = None,
-    inner: Effect | None = None,
+    inner: Sequence[Effect] = (),
 ) -> Effect:
     """Write the class of a learned law into a folder, as a library of one effect.
 
@@ -61,7 +61,7 @@ def keep_law(
         libraries: where that is.
         folder: made where it is not there.
         formula: in place of the table.
-        inner: effect in the same slot that becomes part of the class.
+        inner: effects in the same slot that become part of the class.
     Returns:
         the effect, as `pysim.effects.read_catalogue` reads it from that file beside the libraries.
     Raises:
@@ -91,7 +91,7 @@ def with_laws(found: Diagnosis, variants: Variants, folder: Path) -> tuple[list[
     """The effects of an answer and the laws that it learned, each the filling of a slot, and what builds models with
     them.
 
-    An effect in the slot of a law becomes part of the law's class. A law stays out where no class holds both.
+    Effects in the slot of a law become part of the law's class. A law stays out where no class holds all.
 
     Args:
         folder: gets the files of the laws, which are among the libraries then.
@@ -99,12 +99,11 @@ def with_laws(found: Diagnosis, variants: Variants, folder: Path) -> tuple[list[
     effects, libraries = [one.effect for one in found.effects if one.effect.class_name], variants.libraries
     for law in found.learned:
         beside, file = [one for one in effects if one.slot == law.slot], folder / law_file(law)
-        if not law.modelica or len(beside) > 1:
+        if not law.modelica:
             continue
-        inner = next(iter(beside), None)
-        with suppress(BadInput):  # the effect's law is more than equations
-            own = _written(law, _effect_name(law), variants.class_name, libraries, file, inner=inner)
-            effects = [*(one for one in effects if one is not inner), own]
+        with suppress(BadInput):  # the effect's law is more than equations, or no class holds all
+            own = _written(law, _effect_name(law), variants.class_name, libraries, file, inner=beside)
+            effects = [*(one for one in effects if one not in beside), own]
             libraries = (*libraries, file)
     return effects, replace(variants, libraries=libraries)
 

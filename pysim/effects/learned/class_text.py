@@ -20,7 +20,7 @@ from pysim.effects.law import check_units, dimension, dimension_words
 from pysim.effects.law_class import parameter_text, slot_units
 from pysim.effects.learned.curve import CURVE, RAMP, SLOPE, widths
 from pysim.effects.learned.formula import REACH, Formula, rounded_up
-from pysim.effects.slots import Filling, Slot, filling
+from pysim.effects.slots import Filling, Slot, filling, paired
 from pysim.types import BadInput, Effect, EffectParameter
 from pysim.types.answer import LearnedLaw
 from pysim.types.factor import Factor, Form
@@ -37,7 +37,7 @@ def learned_class(
     effect: str = "",
     description: str = "",
     formula: Formula | None = None,
-    inner: Effect | None = None,
+    inner: Sequence[Effect] = (),
 ) -> str:
     """Text of the Modelica class of a learned law, to be saved as a file and named as a library.
 
@@ -54,12 +54,13 @@ def learned_class(
         libraries: contain the slot's present class and its partial class.
         effect: its name in the catalogue; "" for a class that a diagnosis does not try.
         formula: takes the place of the curve, see `formulas`.
-        inner: an effect in the same slot, which becomes part of the class, since a slot takes one class only.
+        inner: one or two effects in the same slot, which become part of the class, since a slot takes one class only:
+            two as `first` and `second` of a pair of the libraries.
     Raises:
         BadInput: the slot's class does not give its variable by an equation `y = ...`, or units do not match.
     """
-    slot = slot if inner is None else replace(slot, filling=inner.class_name)
-    parts = filling(slot, libraries, final=inner is None)
+    slot = replace(slot, filling=inner[0].class_name) if len(inner) == 1 else slot
+    parts = paired(slot, inner, libraries) if len(inner) > 1 else filling(slot, libraries, final=not inner)
     taken = re.search(r"\bc\b", " ".join(parts.declarations))
     writer = _Writer(law, slot, libraries, formula, "c_h" if taken else "c")
     equations = []

@@ -1,14 +1,16 @@
 """Learned laws become classes: beside an answer, and in a folder of the user's own."""
 
+from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from pysim.effects import STANDARD_LIBRARY, read_catalogue
 from pysim.simulate import simulate
-from pysim.types import BadInput, Effect, Experiment, Signal
+from pysim.types import BadInput, Effect, Experiment, Model, Signal
 from pysim.types.answer import Diagnosis, FoundEffect, LearnedLaw, Left
 from pysim.types.factor import Factor, Form
 from pysim.workflow.learned import keep_law, with_classes, with_laws
@@ -93,13 +95,32 @@ def test_an_effect_in_the_slot_of_a_law_becomes_part_of_its_class(tmp_path: Path
     assert np.ptp(angle["law and friction"] - angle["law"]) > 1e-3
 
 
-def test_a_law_whose_slot_has_a_pair_of_effects_stays_out(tmp_path: Path) -> None:
+def test_a_pair_of_effects_in_the_slot_of_a_law_becomes_part_of_its_class(tmp_path: Path) -> None:
+    """As the pair alone with the law off, and as the law alone with the pair off; parameters keep their names."""
     known = {effect.name: effect for effect in read_catalogue(STANDARD_LIBRARY)}
     both = [FoundEffect(known[name], "pistonForce", ()) for name in ("friction.coulomb", "spring.preload")]
     found = with_classes(answer(LAW, *both), PUMP, [STANDARD_LIBRARY])
-    effects, variants = with_laws(found, Variants(PUMP, (STANDARD_LIBRARY,)), tmp_path)
-    assert [effect.name for effect in effects] == ["friction.coulomb", "spring.preload"]
-    assert variants.libraries == (STANDARD_LIBRARY,)
+    (effect,), wider = with_laws(found, Variants(PUMP, (STANDARD_LIBRARY,)), tmp_path)
+    model, places = wider.build([effect])
+    pair, its = Variants(PUMP, (STANDARD_LIBRARY,)).build([one.effect for one in both])
+    names = [f"{its[one.effect.name]}.{p.name}" for one in both for p in one.effect.parameters]
+    assert {one.name for one in model.variables} >= {*names, f"{places[effect.name]}.c[9]"}
+    alone = keep_law(LAW, "my.damping", PUMP, [STANDARD_LIBRARY], tmp_path / "own")
+    only, _ = Variants(PUMP, (STANDARD_LIBRARY, tmp_path / "own" / "MyDamping.mo")).build([alone])
+    off = {name: 0.0 for name in names if name.endswith((".F_c", ".F_0"))}
+    no_law = {f"{places[effect.name]}.c[{k}]": 0.0 for k in range(1, 10)}
+    given = dict.fromkeys(off, 200.0)
+
+    def angle(which: Model, values: Mapping[str, float]) -> NDArray[np.float64]:
+        swing = Signal(np.zeros(1), np.array([[0.0, 0.0, 0.0, 0.0]]), np.array([[[0.2, 0.0, 12.0, 0.0]]]))
+        experiment = Experiment(np.linspace(0, 0.4, 81), ("alphaPercent",), {"alphaCMD": swing})
+        return simulate(which, experiment.override(**values))["alphaPercent"]
+
+    assert len(off) == 2
+    assert angle(model, off) == pytest.approx(angle(only, {}), abs=1e-6)
+    assert angle(model, {**given, **no_law}) == pytest.approx(angle(pair, given), abs=1e-6)
+    assert np.ptp(angle(model, off) - angle(model, {**off, **no_law})) > 1e-5
+    assert np.ptp(angle(model, given) - angle(model, off)) > 1e-3
 
 
 def test_an_effect_and_the_curve_in_its_class_may_both_be_called_c(tmp_path: Path) -> None:
