@@ -15,7 +15,8 @@ export default {
         <td><Entry needed type="number" step="any" class="field" :aria-label="'value of ' + row.name" :value="shown(row)" :stamp="stamp"
                    @put="(words) => move(row, Number(words), true)" /></td>
         <td><input v-if="row.slides" type="range" min="0" :max="steps" :aria-label="'slider of ' + row.name" :value="place(row)"
-                   :aria-valuetext="shown(row) + ' ' + row.unit" @input="slid(row, $event, false)" @change="slid(row, $event, true)" /></td>
+                   :aria-valuetext="shown(row) + ' ' + row.unit" @input="slid(row, $event, false)" @change="slid(row, $event, true)"
+                   @pointerup="held = false" @blur="held = false" /></td>
         <td v-if="fits" class="number">{{ row.now == null ? "" : Number(row.now.toPrecision(4)) }}</td>
         <td>{{ row.unit }}</td>
         <td v-for="end in ['min', 'max']" :key="end"><Entry needed type="number" step="any" class="field bound" :aria-label="end + ' of ' + row.name"
@@ -28,7 +29,7 @@ export default {
   props: { rows: Array, heard: Number },
   emits: ["move", "fit", "bound"],
   data() {
-    return { steps: STEPS, values: this.told(), stamp: 0, given: this.heard };
+    return { steps: STEPS, values: this.told(), stamp: 0, given: this.heard, held: false }; // a slider is held
   },
   computed: {
     fits() {
@@ -44,7 +45,7 @@ export default {
   },
   methods: {
     follow() {
-      if (this.given > this.heard) return;
+      if (this.held || this.given > this.heard) return;
       this.values = this.told();
       this.stamp += 1; // what was refused is shown no more
     },
@@ -68,6 +69,7 @@ export default {
       return Math.round(STEPS * share);
     },
     slid(row, event, done) {
+      this.held = !done;
       const share = event.target.value / STEPS;
       const value = far(row) ? row.min * (row.max / row.min) ** share : row.min + (row.max - row.min) * share;
       this.move(row, value, done);

@@ -120,6 +120,21 @@ def test_a_late_answer_moves_no_slider_back(shown: Shown, show: Show, project: P
     assert tab.errors == []
 
 
+def test_a_slider_stays_under_the_hand_whatever_the_server_says(shown: Shown, show: Show, project: Project) -> None:
+    tab = Tab(shown, show(project.folder), artefacts())
+    tab.see("effects that fit")
+    tab.go("Model")
+    slider = tab.page.get_by_label("slider of k")
+    slider.evaluate("(el) => { el.value = 900; el.dispatchEvent(new Event('input')); }")
+    tab.page.get_by_label("fit d").uncheck()
+    tab.until(lambda: "d" not in project.settings().free)
+    tab.page.wait_for_timeout(300)  # the answer comes
+    assert slider.input_value() == "900"
+    slider.evaluate("(el) => el.dispatchEvent(new Event('change'))")
+    tab.until(lambda: project.values() == {"k": pytest.approx(90.1)})  # from 1 to 100
+    assert tab.errors == []
+
+
 @pytest.mark.slow
 def test_fitted_values_stand_beside_those_where_fits_begin_and_are_taken_over(
     shown: Shown, show: Show, project: Project
