@@ -23,9 +23,8 @@ class Sweep:
 
     Where a member returns early, it and those that have stepped on are put back and stepped again to that time, since
     inputs that run, or their means, are others over a shorter step. The first to step is left where it is if it cannot
-    go back, or if no inputs run. Where that
-    cannot be, because a member cannot be put back or takes no other step, the one goes on by itself, with its inputs as
-    they are; `counts["unaligned"]` tells.
+    go back, or if no inputs run. Where that cannot be, because a member cannot be put back or takes no other step, the
+    one goes on by itself, with its inputs as they are; `counts["unaligned"]` tells.
 
     Args:
         order: names of all members.
