@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -11,10 +12,11 @@ from pysim.diagnosis import verdict
 from pysim.diagnosis.candidate import Models, Refused
 from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.error_history import error_step, held_still
+from pysim.diagnosis.floors import Floors
 from pysim.diagnosis.learn.described import answered
 from pysim.diagnosis.learn.fit import LawFit, together
 from pysim.diagnosis.learn.learn import Learner, Learning
-from pysim.diagnosis.learn.names import without_the_unseated
+from pysim.diagnosis.learn.names import refines, without_the_unseated
 from pysim.diagnosis.learn.outside import outside_laws
 from pysim.diagnosis.left import follows, tone
 from pysim.diagnosis.next_test import next_test
@@ -248,30 +250,36 @@ def _with_law(found: Found, models: Named, law: LawFit) -> tuple[Found, Named]:
 
 
 def _learned(session: Session, search: Search, found: Found) -> Learning:
-    """Learn the best law beside the final model, and drop the effects that it makes needless ("unseats").
-    If the effects explain less than a law must to unseat them, a law beside the base model is tried first."""
+    """Learn the best law beside the base model and, if it cannot take the place of the effects, beside these.
+
+    It takes their place if it explains clearly more than they do ("unseats"), refines none of them, and a law beside
+    them explains little more. Of the effects beside a law those are dropped that it makes needless.
+    """
     floors, settings = found.floors, LearnSettings()
-    base, final = floors.avoidable(found.base), floors.avoidable(found.final)
-    hardly = found.final is not found.base and base - final < settings.unseats * base
-    for present in [found.base, found.final] if hardly else [found.final]:
-        if session.has_clock and not present.candidate.transient:
-            present = _alone(present, search, transient=True)
-        learning = Learner(session, present, floors, search.tried, search.vetoed, search.say.doing).learn()
-        if learning.law is not None and final - floors.avoidable(learning.law.fit) > settings.unseats * base:
-            break
-    if learning.law is not None and learning.present.names:
+    alone = _law_beside(found.base, session, search, floors)
+    if found.final is found.base:
+        return alone
+    base, final, left = floors.avoidable(found.base), floors.avoidable(found.final), math.inf
+    if alone.law is not None and not any(refines(alone.law.law, one) for one in found.final.candidate.effects):
+        own = floors.avoidable(alone.law.fit)
+        left = own if final - own > settings.unseats * base else math.inf
+    if left <= settings.least * base:
+        return alone
+    learning, best = _law_beside(found.final, session, search, floors), final
+    if learning.law is not None:
+        tried, one = search.models.alone, learning.law
         law = without_the_unseated(
-            session,
-            learning.law,
-            learning.present,
-            found.base,
-            found.losses,
-            search.models.alone,
-            floors,
-            search.tried,
+            session, one, learning.present, found.base, found.losses, tried, floors, search.tried
         )
-        learning = replace(learning, fits=(law, *learning.fits[1:]))
-    return learning
+        learning, best = replace(learning, fits=(law, *learning.fits[1:])), floors.avoidable(law.fit)
+    return alone if left - best < settings.least * base else learning
+
+
+def _law_beside(present: FinalFit, session: Session, search: Search, floors: Floors) -> Learning:
+    """The best law beside a model."""
+    if session.has_clock and not present.candidate.transient:
+        present = _alone(present, search, transient=True)
+    return Learner(session, present, floors, search.tried, search.vetoed, search.say.doing).learn()
 
 
 def _lacks_much(found: Found, account: _Account) -> bool:

@@ -105,10 +105,10 @@ class LearnSettings:
     """How laws are learned that no catalogue has."""
 
     knots: int = setting(
-        13, unit="1", meaning="knots of a curve in the screening", source="measured: nine miss a dead band; bench-03"
+        15, unit="1", meaning="knots of a curve in the screening", source="measured: eleven miss a dead band; bench-03"
     )
     most_knots: int = setting(
-        49, unit="1", meaning="knots of a curve at most", source="measured: known-answers, a magnet beside the way"
+        57, unit="1", meaning="knots of a curve at most", source="measured: known-answers, a magnet beside the way"
     )
     least: float = setting(
         0.05, unit="1", meaning="share of the avoidable sum of squares that a law must explain to be kept, and that "

@@ -29,7 +29,7 @@ from validation.learned.cases import CASES, NOISE, LearnedCase, measure
 Array = NDArray[np.float64]
 
 _ALIKE = {"xp": "x", "piston.x": "x", "linkage.s": "x", "xp_t": "v", "piston.v": "v", "spool.u": "s", "u": "s",
-          "chamber1.p": "p1", "chamber2.p": "p2"}  # fmt: skip
+          "chamber1.p": "p1", "chamber2.p": "p2", "chamber1.p - chamber2.p": "dp"}  # fmt: skip
 # Powers of a mechanism's scale. Angle, spool and pressures stay the same where its lengths are divided by a number and
 # its areas and forces multiplied by it, so that no test of these cases tells that number.
 _OF_SCALE = {"x": -1, "v": -1, "pistonForce": 1}

@@ -12,34 +12,41 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from pysim.effects.learned.curve import ROUND
+
 Array = NDArray[np.float64]
 
-# Quantiles of the argument between which the knots lie, and the share of samples on each side of zero above which the
-# knots become denser around zero.
+# Quantiles of the argument between which all knots but the outermost lie, and the share of samples on each side of zero
+# above which these become denser around zero.
 _RANGE, _BOTH = (0.002, 0.998), 0.05
 # Width of the arcsinh scale over the largest value, and ratio of the ends above which equal ratios are mixed in.
 _ARCSINH, _DECADE = 0.05, 10.0
-# Penalty weight of level and slope, over the data's mean information on a value: only so that they are determined.
+# First penalty weight of level and slope, over the data's mean information on a value, so that they are determined.
 _LEVEL = 1e-4
-# Smallest and largest penalty weight of the curvature that is tried, over the same: from free to a straight line.
-_LEAST, _MOST = 1e-9, 1e3
+# Smallest and largest penalty weights that are tried, over the same: from free to a straight line, or to zero.
+_LEAST, _MOST = 1e-12, 1e3
 
 
-def knots(z: Array, count: int) -> Array:
-    """Knots (count,), increasing, of a curve over a variable with samples z (n,).
+def knots(z: Array, count: int, others: Array | None = None) -> Array:
+    """Knots (count,), increasing, of a curve over a variable with samples z (n,), in other logs `others` (k,).
 
     If z has both signs, the knots are dense around zero (arcsinh scale), since most abrupt laws change there. If z is
-    positive and spans a decade or more, the knots are the mean of even steps and equal ratios.
+    positive and spans a decade or more, the knots are the mean of even steps and equal ratios. The outermost knots lie
+    beyond all samples by the width of a rounded corner, since a model with the law goes elsewhere than one without.
     """
     low, high = (float(end) for end in np.quantile(z, _RANGE))
     if not high - low > 1e-9 * max(abs(low), abs(high)):
         low, high = low - 1e-9 - 1e-3 * abs(low), high + 1e-9 + 1e-3 * abs(high)
     reach = max(-low, high)
+    inner = np.linspace(low, high, count - 2)
     if np.mean(z < -0.02 * reach) > _BOTH and np.mean(z > 0.02 * reach) > _BOTH:
         scale = _ARCSINH * reach
-        return np.asarray(scale * np.sinh(np.linspace(math.asinh(low / scale), math.asinh(high / scale), count)))
-    even = np.linspace(low, high, count)
-    return np.asarray((even + np.geomspace(low, high, count)) / 2 if 0 < _DECADE * low < high else even)
+        inner = scale * np.sinh(np.linspace(math.asinh(low / scale), math.asinh(high / scale), count - 2))
+    elif 0 < _DECADE * low < high:
+        inner = (inner + np.geomspace(low, high, count - 2)) / 2
+    every = np.concatenate([[low, high], z, [] if others is None else others])
+    first, last = every.min() - ROUND * (inner[1] - inner[0]), every.max() + ROUND * (inner[-1] - inner[-2])
+    return np.array([first, *inner, last])
 
 
 def missed(k: Array, c: Array) -> Array:
@@ -108,20 +115,28 @@ class Smoothness:
         return np.asarray(self.rows.T @ self.rows)
 
     def moved(self, gram: Array, c: Array) -> Smoothness:
-        """The penalty with `bending` updated at an optimum with coefficients c (m,) (Fellner-Schall step).
+        """The penalty with both weights updated at an optimum with coefficients c (m,) (Fellner-Schall step).
 
         Args:
             gram: (m, m) information of the data on the coefficients: J'J of the residual over its level, projected
                 off the model's parameters. Where these imitate the whole curve, rounding is left of it, of either sign,
                 and the penalty stays.
         """
-        rough = bends(self.knots).T @ bends(self.knots)
-        bent, typical = max(float(c @ rough @ c), 1e-300), float(np.trace(gram)) / c.size
+        typical = float(np.trace(gram)) / c.size
         if typical <= 0:
             return self
-        taken = self.bending * float(np.trace(np.linalg.solve(gram + self.precision, rough)))
-        weight = max(self.knots.size - 2 - taken, 1e-3) / bent
-        return replace(self, bending=float(np.clip(weight, _LEAST * typical, _MOST * typical)))
+        inverse = np.linalg.inv(gram + self.precision)
+
+        def updated(weight: float, rows: Array) -> float:
+            taken, size = weight * float(np.sum(rows @ inverse * rows)), float(np.sum((rows @ c) ** 2))
+            found = max(len(rows) - taken, 1e-3) / max(size, 1e-300)
+            return float(np.clip(found, _LEAST * typical, _MOST * typical))
+
+        return replace(
+            self,
+            bending=updated(self.bending, bends(self.knots)),
+            level=updated(self.level, lines(self.knots).T),
+        )
 
     def edf(self, gram: Array) -> float:
         """Effective number of coefficients (effective degrees of freedom)."""
@@ -169,5 +184,7 @@ def solve(gram: Array, right: Array, whole: float, n: float, k: Array) -> Curve:
     ends = (grid[max(near - 1, 0)], grid[min(near + 1, grid.size - 1)])
     bending = math.exp(float(minimize_scalar(loss, bounds=ends, method="bounded").x))
     smooth = Smoothness(k, bending, flat)
-    values = -np.linalg.solve(gram + smooth.precision, right)
-    return Curve(np.asarray(values), smooth, smooth.edf(gram), gram)
+    first = np.asarray(-np.linalg.solve(gram + smooth.precision, right))
+    smooth = replace(smooth, level=smooth.moved(gram, first).level)
+    values = np.asarray(-np.linalg.solve(gram + smooth.precision, right))
+    return Curve(values, smooth, smooth.edf(gram), gram)

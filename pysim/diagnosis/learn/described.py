@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from pysim.diagnosis.learn.basis import Smoothness, bends, lines, missed
 from pysim.diagnosis.learn.learn import Learning
 from pysim.effects.law_units import quotient
-from pysim.effects.learned import TIME, Law
+from pysim.effects.learned import LESS, TIME, Law
 from pysim.types import Model
 from pysim.types.answer import LearnedLaw
 from pysim.types.factor import Form
@@ -75,7 +75,7 @@ def _law(law: Law, model: Model, knots: Array, values: Array) -> LearnedLaw:
     if law.form is Form.VARIABLE:
         unit = quotient(unit, model[factor].unit or "1")
     empty = np.zeros((knots.size, knots.size))
-    argument_unit = "s" if argument == TIME else model[argument].unit or "1"
+    argument_unit = "s" if argument == TIME else model[argument.split(LESS)[0]].unit or "1"
     return LearnedLaw(law.place.name, law.factor, argument, knots, values, empty, 0.0, argument_unit, unit)
 
 

@@ -12,7 +12,16 @@ from pysim.diagnosis import rivals
 from pysim.diagnosis.floors import Floors
 from pysim.diagnosis.learn.basis import Array, closer
 from pysim.diagnosis.learn.fit import LawFit, begun, ended, moved, raced, settled, started
-from pysim.diagnosis.learn.screening import LawModel, Ranked, distinct, over_all, remembering, screen, seen
+from pysim.diagnosis.learn.screening import (
+    LawModel,
+    Ranked,
+    distinct,
+    over_all,
+    remembering,
+    screen,
+    seen,
+    with_moved,
+)
 from pysim.diagnosis.left import tone_rate
 from pysim.diagnosis.refit import FinalFit, Pairs, converged, left_out
 from pysim.diagnosis.session import Session
@@ -95,21 +104,27 @@ class Learner:
         """Screen all laws, refit the best ones, and test the winner."""
         if not self._rough.good:
             return Learning(self._present, ())
-        taken = {one.law.place for one in self._beside}
-        where = [one for one in places(self._session.slots, self._session.model) if one not in taken]
+        taken = {one.law.place.name for one in self._beside}
+        where = [one for one in places(self._session.slots, self._session.model) if one.name not in taken]
+        signals, choosing = (seen(self._present, where, use) for use in ("fit", "validate"))
+        if not signals:
+            return Learning(self._present, ())
+        states = self._present.candidate.model.abilities.states
         self._say("compiling laws")
+        where = [with_moved(place, signals, states) for place in where]
         models = {place.key: model for place in where if (model := self._model(place, self._settings.knots))}
         if not models:
             return Learning(self._present, (), refused=self._refused)
-        signals = seen(self._present, self._present.candidate.model, [one.place for one in models.values()])
-        laws = distinct([one.place for one in models.values()], signals) if signals else []
+        laws = distinct([one.place for one in models.values()], signals)
         clock = self._session.has_clock and self._present.candidate.transient
         laws = [law for law in laws if clock or law.argument != TIME]
         self._say(f"trying {len(laws)} laws at {len(models)} places")
-        ranked = screen(self._rough, models, laws, signals, self._floors)
+        ranked = screen(self._rough, models, laws, signals, choosing, self._floors)
         fits = self._raced(models, ranked, ranked)
         if not fits or self._share(fits[0]) < 1 - self._settings.least:
-            others, more = self._with_memory([law for law in laws if not law.place.sides[0].output_rate], signals)
+            others, more = self._with_memory(
+                [law for law in laws if not law.place.sides[0].output_rate], signals, choosing
+            )
             ranked, laws = sorted([*ranked, *more], key=lambda one: -one.score), [*laws, *(one.law for one in more)]
             fits = self._ordered([*fits, *self._raced(others, more, ranked)])
         if not fits:
@@ -138,7 +153,7 @@ class Learner:
         return LawModel(place, count, self._rough, model, memory)
 
     def _with_memory(
-        self, laws: Sequence[Law], signals: Mapping[str, Array]
+        self, laws: Sequence[Law], signals: Mapping[str, Array], choosing: Mapping[str, Array]
     ) -> tuple[dict[str, LawModel], list[Ranked]]:
         """Compiled models and screened laws with bristles and tones: for each place and form the best number of the
         factor over one argument, then that number over the other arguments."""
@@ -151,10 +166,10 @@ class Learner:
         starts = [law for law in starts if law.place.key in models]
         self._say(f"trying bristles and tones at {len(models)} places")
         best: dict[tuple[Place, Form, int | None], Ranked] = {}
-        for one in screen(self._rough, models, starts, signals, self._floors):
+        for one in screen(self._rough, models, starts, signals, choosing, self._floors):
             best.setdefault((one.law.place, one.law.form, one.law.by), one)
         others = over_all([one.law for one in best.values()], laws)
-        more = screen(self._rough, models, others, signals, self._floors)
+        more = screen(self._rough, models, others, signals, choosing, self._floors)
         return models, sorted([*best.values(), *more], key=lambda one: -one.score)
 
     def _raced(self, models: Mapping[str, LawModel], some: Sequence[Ranked], ranked: Sequence[Ranked]) -> list[LawFit]:

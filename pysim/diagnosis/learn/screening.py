@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import islice
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +17,7 @@ from pysim.diagnosis.learn.basis import Curve, knots, solve
 from pysim.diagnosis.learn.products import Products
 from pysim.diagnosis.refit import FinalFit
 from pysim.diagnosis.settings import LearnSettings
-from pysim.effects.learned import TIME, Law, Place, laws_at
+from pysim.effects.learned import LESS, TIME, Law, Place, laws_at
 from pysim.identify.greybox import Problem
 from pysim.identify.greybox.identifiability import EXACT
 from pysim.identify.greybox.observation import Run
@@ -131,7 +132,7 @@ class LawModel:
 def with_law(base: ParameterSpace, law: Law, first: Sequence[str], k: Array, unit: float) -> ParameterSpace:
     """The space with a law's numbers behind: those named `first`, and the coefficients over `unit` at the knots k."""
     names, settings = law.place.coefficients(k.size), law.settings(k, unit)
-    own, far, is_length = (*first, *names), np.full(len(names), math.inf), law.form is Form.BRISTLE
+    own, far, is_length = (*first, *names), np.full(len(names), math.inf), law.is_bristle
     low = 0.0 if is_length else -math.inf
     return ParameterSpace(
         keys=(*base.keys, *own),
@@ -148,12 +149,16 @@ def with_law(base: ParameterSpace, law: Law, first: Sequence[str], k: Array, uni
     )
 
 
-def seen(present: FinalFit, model: Model, places: Sequence[Place]) -> dict[str, Array]:
-    """Samples (n,) of every variable that a law may depend on, from the fitted model's runs; empty if all runs fail."""
-    names = {name for place in places for side in place.sides for name in (*side.own, *place.outside)} - {TIME}
-    residuals = present.candidate.residuals(present.simulation)
+def seen(present: FinalFit, places: Sequence[Place], use: str = "fit") -> dict[str, Array]:
+    """Samples (n,) of every variable that a law may depend on, from the fitted model's runs of the logs with this use;
+    empty if there are none or all fail."""
+    wanted = {name for place in places for side in place.sides for name in (*side.own, *place.outside)} - {TIME}
+    model = present.candidate.model
+    names = {name for one in wanted for name in one.split(LESS)} | set(model.abilities.states)
+    residuals = present.candidate.residuals(present.simulation, use)
     overrides = present.candidate.held(present.values).fixed
-    states = present.point.carried.states or (None,) * len(residuals.runs)
+    known = present.point.carried.states if use == "fit" else ()
+    states = known or (None,) * len(residuals.runs)
     offsets = [None if run.orbit is not None else s for run, s in zip(residuals.runs, states, strict=True)]
     runs = [run.over_time(overrides, offset) for run, offset in zip(residuals.runs, offsets, strict=True)]
     runs = sorted(runs, key=lambda run: float(run.times[-1]) - run.start, reverse=True)[:_RUNS]
@@ -164,7 +169,17 @@ def seen(present: FinalFit, model: Model, places: Sequence[Place]) -> dict[str, 
     if not records:
         return {}
     found = {name: np.concatenate([r[name] for r in records]) for name in names}
+    found |= {one: found[one.split(LESS)[0]] - found[one.split(LESS)[1]] for one in wanted if LESS in one}
     return {**found, TIME: np.concatenate([r.time for r in records])}
+
+
+def with_moved(place: Place, signals: Mapping[str, Array], states: Sequence[str]) -> Place:
+    """The place with the first of its variables that is one of the model's states, if it has no speeds."""
+    if place.speeds or len(place.sides) > 1 or place.sides[0].output_rate:
+        return place
+    own = [signals[name] for name in place.sides[0].own]
+    alike = (i for i, z in enumerate(own) if any(np.allclose(z, signals[one], rtol=1e-9, atol=0) for one in states))
+    return replace(place, moved=tuple(islice(alike, 1)))
 
 
 def distinct(places: Sequence[Place], signals: Mapping[str, Array]) -> list[Law]:
@@ -210,9 +225,11 @@ def remembering(laws: Sequence[Law], signals: Mapping[str, Array], rate: float |
     """
     settings, found = LearnSettings(), list[Law]()
     for place, law in {law.place: law for law in reversed(laws) if law.form is Form.ONE}.items():
-        for i in place.speeds:
-            stroke = _stroke(signals[place.sides[0].own[i]], signals[TIME])
-            found += [Law(place, law.chosen, Form.BRISTLE, i, share * stroke) for share in settings.bristles if stroke]
+        for i in place.pulls:
+            form, z = Form.BRISTLE if i in place.speeds else Form.HYSTERESIS, signals[place.sides[0].own[i]]
+            step = np.diff(signals[TIME])
+            stroke = _stroke((z[1:] * step if form is Form.BRISTLE else np.diff(z))[step > 0])
+            found += [Law(place, law.chosen, form, i, share * stroke) for share in settings.bristles if stroke]
         if rate is not None:
             phases = np.arange(settings.phases) * math.pi / settings.phases
             found += [Law(place, law.chosen, Form.TONE, None, phase, rate) for phase in phases.tolist()]
@@ -225,11 +242,9 @@ def over_all(best: Sequence[Law], laws: Sequence[Law]) -> list[Law]:
     return [replace(law, chosen=i) for law in best for place, i in arguments if place == law.place and i != law.chosen]
 
 
-def _stroke(v: Array, time: Array) -> float:
-    """Mean way between two reversals of a speed (n,), in its unit times s; 0 if it is never reversed."""
-    step = np.diff(time)
-    way = float(np.sum((np.abs(v[1:]) * step)[step > 0]))
-    return way / max(int(np.count_nonzero(np.diff(np.sign(v[v != 0])))), 1)
+def _stroke(steps: Array) -> float:
+    """Mean way between two reversals of what moves in steps (n,), in their unit; the whole way if it never turns."""
+    return float(np.abs(steps).sum()) / max(int(np.count_nonzero(np.diff(np.sign(steps[steps != 0])))), 1)
 
 
 def _scaled(z: Array) -> Array:
@@ -248,6 +263,7 @@ def screen(
     models: Mapping[str, LawModel],
     laws: Sequence[Law],
     signals: Mapping[str, Array],
+    choosing: Mapping[str, Array],
     floors: Mapping[Channel, float],
 ) -> list[Ranked]:
     """Screen every law to first order; the best score first. Laws that cannot be simulated are left out, and those that
@@ -256,6 +272,7 @@ def screen(
     Args:
         present: the fitted model that lacks something.
         models: key of a place -> model compiled with a term there.
+        signals, choosing: samples of the model's variables, see `seen`, in the logs that are fitted, that may choose.
         floors: standard deviation of the noise of each channel.
     """
     table = Products.at(present.point, present.candidate.residuals(present.simulation), floors)
@@ -263,7 +280,7 @@ def screen(
     for law in laws:
         z, by = samples(law, signals)
         model = models[law.place.key]
-        k = knots(z, model.count)
+        k = knots(z, model.count, samples(law, choosing)[0] if choosing else z)
         slopes = model.slopes(law, k, by)
         if slopes is None or not np.linalg.norm(slopes[1]) > 0:
             continue

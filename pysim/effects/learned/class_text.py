@@ -20,12 +20,15 @@ from pysim.effects.law import check_units, dimension, dimension_words
 from pysim.effects.law_class import parameter_text, slot_units
 from pysim.effects.learned.curve import CURVE, RAMP, SLOPE, widths
 from pysim.effects.learned.formula import REACH, Formula, rounded_up
+from pysim.effects.learned.places import LESS
 from pysim.effects.slots import Filling, Slot, filling, paired
 from pysim.types import BadInput, Effect, EffectParameter
 from pysim.types.answer import LearnedLaw
 from pysim.types.factor import Factor, Form
 
 Array = NDArray[np.float64]
+
+_DIFFERENCE = "difference"  # the argument of a law over the difference of two signals
 
 
 def learned_class(
@@ -46,9 +49,9 @@ def learned_class(
     constant. A signal that the slot does not have becomes an input, which `pysim.effects.variant` connects.
 
     Args:
-        law: its argument is a variable of the slot, `v` or `SLOT.v`, another signal of the model, or `time`. If the
-            slot gives several variables of one kind, `q1` and `q2`, each gets the same curve: over `p1` for `q1`, and
-            over `p2` for `q2`.
+        law: its argument is a variable of the slot, `v` or `SLOT.v`, another signal of the model, the difference of
+            two, or `time`. If the slot gives several variables of one kind, `q1` and `q2`, each gets the same curve:
+            over `p1` for `q1`, and over `p2` for `q2`.
         slot: the slot that it fills, as `pysim.effects.slots` reads it from a model.
         name: of the class.
         libraries: contain the slot's present class and its partial class.
@@ -71,7 +74,7 @@ def learned_class(
         equations.append(f"{left} = {_sum(right, term or rate)}" if left else right)
     argument, unit = writer.argument, law.argument_unit
     reach = f"{law.knots[0]:.4g} to {law.knots[-1]:.4g} {unit}"
-    comment = f"Learned from measurements with {argument} from {reach}.\nBeyond that range the law is not known"
+    comment = f"Learned from measurements, for {argument} from {reach}.\nBeyond that range the law is not known"
     comment += "." if formula else "; the curve is constant there."
     note = f"{VENDOR}(effect={quoted(effect)}, slot={quoted(slot.name)})" if effect else ""
     return class_text(
@@ -130,8 +133,9 @@ class _Writer:
         self._law, self._slot, self._formula, self._coefficients = law, slot, formula, coefficients
         self._units: Mapping[str, str | None] = slot_units(slot, libraries)
         self._outside: dict[str, str] = {}  # local name -> signal of the model
-        self._bristle: tuple[str, float] | None = None  # speed and length
-        self.argument = self._local(law.argument)
+        self._bristle: tuple[str, str, float] | None = None  # variable, its speed, and length
+        self._parts = [self._local(one) for one in law.argument.split(LESS)]  # two of a difference
+        self.argument = self._parts[0] if len(self._parts) == 1 else _DIFFERENCE
         self._factor = self._factor_text(law.factor)
         self._knots, self._widths = f"{self.argument}_k", f"{self.argument}_w"
         self._check()
@@ -151,10 +155,11 @@ class _Writer:
         name = self._local(factor.variable) if factor.variable else ""
         if factor.form is Form.SIGN:
             return f"tanh({name}/{factor.number:.8g})"
-        if factor.form is Form.BRISTLE:
+        if factor.form in (Form.BRISTLE, Form.HYSTERESIS):
             if len([one for one in self._slot.gives if not one.endswith("_t")]) > 1:
                 raise BadInput(f"learned law at {self._slot.name}: it has two sides, which cannot share a bristle")
-            self._bristle = name, float(f"{factor.number:.8g}")
+            speed = name if factor.form is Form.BRISTLE else f"der({name})"
+            self._bristle = name, speed, float(f"{factor.number:.8g}")
             return f"{name}_bristle"
         if factor.form is Form.TONE:
             return f"cos({factor.rate:.8g}*time + {factor.number % math.tau:.8g})"
@@ -232,16 +237,18 @@ class _Writer:
         """Declarations of inputs, bristle states, and parameters in the form that `read_catalogue` reads."""
         found = []
         for local, signal in self._outside.items():
-            unit = f'(unit="{self._law.argument_unit}")' if local == self.argument else ""
+            unit = f'(unit="{self._law.argument_unit}")' if local in self._parts else ""
             note = f"annotation({VENDOR}(signal={quoted(signal)}))"
             found.append(f"input Real {local}{unit} {quoted(f'{signal} of the model')} {note}")
+        if len(self._parts) > 1:
+            found.append(f'Real {_DIFFERENCE}(unit="{self._law.argument_unit}") {quoted(self._law.argument)}')
         if self._bristle:
-            speed, length = self._bristle
-            unit = (self._units.get(speed) or "1/s").removesuffix("/s")
+            name, speed, length = self._bristle
+            unit = (self._units.get(name) or "1").removesuffix("/s" if speed == name else "")
             bounds = (length / REACH, length * REACH, length)
-            own = EffectParameter(f"{speed}_length", unit, *bounds, length, None, "Length of the bristle (Dahl 1968)")
+            own = EffectParameter(f"{name}_length", unit, *bounds, length, None, "Length of the bristle (Dahl 1968)")
             found.append(parameter_text(own))
-            found.append(f'Real {speed}_bristle(unit="1", start=0, fixed=true) "Bristle over its length, -1 to 1"')
+            found.append(f'Real {name}_bristle(unit="1", start=0, fixed=true) "Bristle over its length, -1 to 1"')
         if self._formula is not None:
             return found + [parameter_text(one) for one in self._formula.parameters]
         values = self._law.coefficients
@@ -253,11 +260,12 @@ class _Writer:
 
     @property
     def equations(self) -> list[str]:
-        """Differential equation of the bristle's state (Dahl 1968)."""
+        """The argument, if it is a difference, and the differential equation of the bristle's state (Dahl 1968)."""
+        found = [f"{_DIFFERENCE} = {' - '.join(self._parts)}"] if len(self._parts) > 1 else []
         if self._bristle is None:
-            return []
-        speed = self._bristle[0]
-        return [f"{speed}_length*der({speed}_bristle) = {speed} - noEvent(abs({speed}))*{speed}_bristle"]
+            return found
+        name, speed, _ = self._bristle
+        return [*found, f"{name}_length*der({name}_bristle) = {speed} - noEvent(abs({speed}))*{name}_bristle"]
 
     def protected(self, rates: bool) -> list[str]:
         """Constants and functions of the curve: knots, widths of corners, and `slope` if there are `rates`."""

@@ -6,13 +6,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
-ROUND = 0.25  # width of a rounded corner over the shorter interval beside it
+ROUND = 0.25  # width of a rounded corner over the shorter interval beside it; of one at the ends over a quarter of that
 
 
 def widths(knots: Array) -> Array:
     """Width (m,) of the rounded corner at each of the knots (m,)."""
     steps = np.diff(knots)
-    return np.asarray(ROUND * np.minimum(np.append(steps, np.inf), np.append(np.inf, steps)))
+    found = ROUND * np.minimum(np.append(steps, np.inf), np.append(np.inf, steps))
+    found[[0, -1]] *= ROUND
+    return np.asarray(found)
 
 
 def curve_basis(z: Array, knots: Array) -> Array:

@@ -20,6 +20,7 @@ from fmu_build.text.expressions import parse
 from pysim.effects.law_units import quotient
 from pysim.effects.learned.curve import curve_basis
 from pysim.effects.learned.expression import derivative, modelica, replaced, smooth, value
+from pysim.effects.learned.places import LESS
 from pysim.types import EffectParameter
 from pysim.types.answer import LearnedLaw
 
@@ -108,7 +109,8 @@ class Formula:
     def text(self, argument: str) -> str:
         """The formula with numbers in place of parameters: `1.2e+04 + 3.1e+07*x^2`."""
         numbers = {p.name: f"{p.default:.3g}" if p.default >= 0 else f"({p.default:.3g})" for p in self.parameters}
-        text = replaced(self.expression, {**numbers, "z": argument})
+        text = replaced(self.expression, {**numbers, "z": f"({argument})" if LESS in argument else argument})
+        text = text.replace(f"(({argument}))", f"({argument})")
         return re.sub(r"(^| \+ )\(-([^()]*)\)", lambda found: ("-" if not found[1] else " - ") + found[2], text)
 
     def written(self, argument: str) -> str:

@@ -32,7 +32,7 @@ class Law:
         form: what its factor is.
         by: index of the factor's variable in `own` of each side; None for 1 and for a tone.
         number: of the factor: the width over which a sign changes, in its variable's unit; the length of a bristle, in
-            that unit times s; the phase of a tone, rad. The last two are refitted.
+            that unit times s, or of a hysteresis, in that unit; the phase of a tone, rad. Widths are not refitted.
         rate: angular frequency of a tone, rad/s.
     """
 
@@ -57,21 +57,26 @@ class Law:
     @property
     def free(self) -> tuple[str, ...]:
         """Name of the parameter that holds the factor's number if it is refitted."""
-        last = {Form.BRISTLE: "l", Form.TONE: "p"}.get(self.form)
+        last = "l" if self.is_bristle else "p" if self.form is Form.TONE else ""
         return (f"{self.place.key}_{last}",) if last else ()
+
+    @property
+    def is_bristle(self) -> bool:
+        """Whether the factor is the deflection of a bristle, whatever pulls on it."""
+        return self.form in (Form.BRISTLE, Form.HYSTERESIS)
 
     @property
     def start(self) -> Array:
         """(1,) start of the factor's number in the search, of a length its logarithm; (0,) if it is not refitted."""
-        own = math.log(self.number) if self.form is Form.BRISTLE else self.number
+        own = math.log(self.number) if self.is_bristle else self.number
         return np.full(len(self.free), own)
 
     @property
     def label(self) -> str:
         """The law as text, such as "force: sign(v) * h(force.x)", without the number of its factor."""
         own = self.factor
-        forms = {Form.BRISTLE: f"bristle({own.variable})", Form.TONE: f"tone({self.rate / (2 * math.pi):.4g} Hz)"}
-        factor = forms.get(self.form, str(own))
+        factor = f"tone({self.rate / (2 * math.pi):.4g} Hz)" if self.form is Form.TONE else str(own)
+        factor = f"{self.form.name.lower()}({own.variable})" if self.is_bristle else factor
         return f"{self.place.name}: {factor + ' * ' if factor else ''}h({self.argument})"
 
     def seen(self, side: Side) -> tuple[str, str]:
@@ -90,7 +95,7 @@ class Law:
             found[f"{key}_s{i}"] = float(i == self.by and form is Form.SIGN)
             found[f"{key}_d{i}"] = self.number if form is Form.SIGN else 1.0
             if self.free:
-                found[f"{key}_m{i}"] = float(i == self.by and form is Form.BRISTLE)
+                found[f"{key}_m{i}"] = float(i == self.by and self.is_bristle)
         if self.free:
             found |= {f"{key}_t": float(form is Form.TONE), f"{key}_f": self.rate, self.free[0]: self.number}
         for i, (k, w) in enumerate(zip(knots.tolist(), wide.tolist(), strict=True), start=1):

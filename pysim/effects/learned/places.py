@@ -9,11 +9,13 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 from pysim.effects.slots import Slot
 from pysim.types import Model
 
 TIME = "time"  # of the model, which runs on the common clock of all records
+LESS = " - "  # between two variables whose difference a law depends on
 _SPEEDS = ("m/s", "rad/s")  # units of the variables that may pull on a bristle
 
 
@@ -42,8 +44,9 @@ class Place:
         name: of the slot, or "der(STATE)" in a model without slots.
         key: prefix of the names of its parameters.
         sides: variables that get the same law.
-        outside: variables outside the slot that the law may depend on.
+        outside: variables outside the slot that the law may depend on, and differences of two, "a - b".
         speeds: indices of the speeds in `own` of the side; none in a slot with two sides, which share no bristle.
+        moved: indices of variables there that are states, whose rates the model has; for a place without speeds.
     """
 
     name: str
@@ -51,6 +54,13 @@ class Place:
     sides: tuple[Side, ...]
     outside: tuple[str, ...]
     speeds: tuple[int, ...] = ()
+    moved: tuple[int, ...] = ()
+
+    @property
+    def pulls(self) -> dict[int, str]:
+        """Index in `own` of what may pull on a bristle -> Modelica text of its speed."""
+        own = self.sides[0].own
+        return {i: own[i] for i in self.speeds} | {i: f"der({own[i]})" for i in self.moved}
 
     @property
     def arguments(self) -> tuple[str, ...]:
@@ -92,11 +102,14 @@ def _of_state(k: int, model: Model) -> Place:
 
 
 def _outside(slots: Sequence[Slot], model: Model, sides: Sequence[Side]) -> tuple[str, ...]:
-    """Time, inputs, and states outside all slots: a law over these makes no algebraic loop."""
+    """States outside all slots, differences of two in one unit, inputs and time: a law over these makes no algebraic
+    loop."""
     inner = tuple(f"{slot.name}." for slot in slots)
     states = [name for name in model.abilities.states if not name.startswith(inner)]
+    units = {name: model[name].unit for name in states}
+    pairs = [f"{a}{LESS}{b}" for a, b in combinations(states, 2) if units[a] == units[b] not in (None, "", "1")]
     own = {name for side in sides for name in side.own}
-    return tuple(name for name in (*states, *_inputs(model), TIME) if name not in own)
+    return tuple(name for name in (*states, *pairs, *_inputs(model), TIME) if name not in own)
 
 
 def _inputs(model: Model) -> tuple[str, ...]:

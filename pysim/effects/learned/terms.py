@@ -55,7 +55,7 @@ class Term:
             found += [f"parameter Real {key}_l = 1;"]
         for n, side in enumerate(place.sides, start=1):
             found += [f"Real {key}_z{n};", f"Real {key}_h{n};", f"Real {key}_y{n};"]
-            if self.memory and place.speeds:
+            if self.memory and place.pulls:
                 found += [f"Real {key}_v;", f"Real {key}_s(start=0, fixed=true);"]
             if side.output_rate:
                 found.append(f"Real {key}_r{n};")
@@ -66,7 +66,7 @@ class Term:
         """Modelica equations, a line each."""
         place, key, found = self.place, self.place.key, list[str]()
         for n, side in enumerate(place.sides, start=1):
-            weighted = [f"{key}_a{i}*{name}" for i, name in enumerate((*side.own, *place.outside))]
+            weighted = [f"{key}_a{i}*({name})" for i, name in enumerate((*side.own, *place.outside))]
             found.append(f"{key}_z{n} = {' + '.join(weighted)};")
             found.append(f"{key}_h{n} = {key}_u*({_curve(key, f'{key}_z{n}', self.count)});")
             factors = [f"{key}_b"]
@@ -75,8 +75,8 @@ class Term:
                     factors += [f"{key}_b{i}*{name}", f"{key}_s{i}*tanh({name}/{key}_d{i})"]
             if self.memory:
                 factors.append(f"{key}_t*cos({key}_f*time + {key}_p)")
-                if place.speeds:
-                    pulls = " + ".join(f"{key}_m{i}*{side.own[i]}" for i in place.speeds)
+                if place.pulls:
+                    pulls = " + ".join(f"{key}_m{i}*{speed}" for i, speed in place.pulls.items())
                     found.append(f"{key}_v = {pulls};")
                     found.append(f"der({key}_s) = ({key}_v - noEvent(abs({key}_v))*{key}_s)/{key}_l;")
                     factors.append(f"{key}_s")

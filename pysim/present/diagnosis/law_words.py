@@ -27,7 +27,7 @@ _PER_FACTOR = {
 def law_kind(law: LearnedLaw) -> str:
     """What the law gives at its slot: "force", "damping"; "term" and "coefficient of v" where its unit says nothing."""
     form = law.factor.form
-    if form in (Form.ONE, Form.TONE):
+    if form in (Form.ONE, Form.TONE, Form.HYSTERESIS):
         return _GIVES.get(law.unit, "term")
     if form in (Form.SIGN, Form.BRISTLE) and law.unit in ("N", "N.m"):
         return "friction"
@@ -70,4 +70,6 @@ def _memory(law: LearnedLaw) -> str:
     if factor.form is Form.BRISTLE:
         unit = {"N": " m", "N.m": " rad"}.get(law.unit, "")
         return f"that remembers, by a bristle of {factor.number:.3g}{unit}"
+    if factor.form is Form.HYSTERESIS:
+        return f"that follows {factor.variable} behind a hysteresis of {factor.number:.3g}"
     return f"at {factor.rate / (2 * math.pi):.4g} Hz" if factor.form is Form.TONE else ""

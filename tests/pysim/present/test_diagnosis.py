@@ -121,6 +121,7 @@ def test_an_error_that_rises_does_not_fall() -> None:
         (Factor(Form.VARIABLE, "x"), "N/m", "stiffness"),
         (Factor(Form.SIGN, "v"), "N", "friction"),
         (Factor(Form.BRISTLE, "v", 5e-4), "N", "friction"),
+        (Factor(Form.HYSTERESIS, "s", 0.02), "m3/s", "flow"),
         (Factor(Form.TONE, number=0.4, rate=151.8), "N", "force"),
         (Factor(Form.VARIABLE, "a"), "N.s/m2", "coefficient of a"),
     ],

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from pysim.diagnosis.learn.basis import Smoothness, bends, closer, knots, missed, solve
+from pysim.diagnosis.learn.basis import Smoothness, bends, closer, knots, lines, missed, solve
 from pysim.effects.learned import curve_basis
 
 
@@ -12,8 +12,19 @@ def test_knots_are_dense_around_zero_where_a_signal_crosses_it() -> None:
     steps = np.diff(k)
     assert np.all(steps > 0)
     assert k[4] == pytest.approx(0.0, abs=0.02)
-    assert steps[0] > 4 * steps[3]
-    assert (k[0], k[-1]) == pytest.approx((-1.0, 1.0), abs=0.01)
+    assert steps[1] > 4 * steps[3]
+    assert -1.2 < k[0] < -1.0
+    assert 1.0 < k[-1] < 1.2
+
+
+@pytest.mark.parametrize("low", [-1.0, -0.05, 1.0, 2.0])
+def test_a_straight_line_is_a_curve_over_all_samples(low: float) -> None:
+    """To a thousandth of its range, next to the ends too, which few samples reach."""
+    z = np.linspace(low, 20.0, 4001)
+    z = z + 0.1 * (z > 19.9)
+    basis = curve_basis(z, knots(z, 13))
+    line = basis @ np.linalg.lstsq(basis, z, rcond=None)[0]
+    assert np.abs(line - z).max() < 1e-3 * np.ptp(z) * (10 if low < 0 else 1)
 
 
 @pytest.mark.parametrize(("low", "high"), [(2.0, 3.0), (1.0, 1000.0), (-5.0, -4.0), (7.0, 7.0)])
@@ -77,6 +88,21 @@ def test_a_step_of_the_smoothness_comes_to_rest_where_restricted_likelihood_is_l
         values = -np.linalg.solve(gram + smooth.precision, right)
         smooth = smooth.moved(gram, values)
     assert smooth.edf(gram) == pytest.approx(best.edf, rel=0.05)
+
+
+def test_neither_level_nor_slope_of_a_law_that_the_data_tell_is_held_back() -> None:
+    """A penalty that costs more than its two numbers, a nat, would make the law too small."""
+    z, k, _ = _regression(np.zeros(2000), 1.0)
+    columns = curve_basis(z, k) / 1e-4
+    truth = 3.0 - 5.0 * k
+    gram, right = columns.T @ columns, -columns.T @ columns @ truth
+    smooth = Smoothness(k, 1.0, 1e-4 * float(np.trace(gram)) / k.size)
+    for _ in range(5):
+        values = -np.linalg.solve(gram + smooth.precision, right)
+        smooth = smooth.moved(gram, values)
+    values = -np.linalg.solve(gram + smooth.precision, right)
+    assert smooth.level * float(np.sum((lines(k).T @ values) ** 2)) < 2.1
+    assert values == pytest.approx(truth, abs=1e-4)
 
 
 def test_a_curve_that_the_parameters_imitate_keeps_its_penalty() -> None:

@@ -44,6 +44,14 @@ def test_a_second_law_is_learned_beside_the_first_and_both_are_refitted() -> Non
     assert not {one.name for step in steps for one in step.estimates if one.name.startswith(tuple(curves))}
 
 
+def test_a_dead_band_depends_on_the_voltage_and_on_nothing_else() -> None:
+    """A curve over the speed times the voltage's sign comes near, if curves are too round at their ends."""
+    found = diagnose(given("axis", measured("axis", {"axis.dead_band": {"u_0": 0.1}}, fit=(1,), validate=(3,)), []))
+    (law,) = found.learned
+    assert (law.slot, str(law.factor), law.argument) == ("amplifier", "", "amplifier.u")
+    assert found.history[-1].validate == pytest.approx(1.0, abs=0.03)
+
+
 def test_the_classes_of_both_laws_leave_what_the_answer_says(tmp_path: Path) -> None:
     (data, found), own = worn(), variants("axis")
     effects, wider = with_laws(with_classes(found, own.class_name, own.libraries), own, tmp_path)

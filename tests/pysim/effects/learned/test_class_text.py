@@ -92,13 +92,15 @@ def with_law(lab: Sequence[Path], model: str, law: LearnedLaw, **more: Any) -> M
 
 
 def curve(law: LearnedLaw, z: float) -> float:
-    """From corner to corner: each changes the slope, by a hyperbola as wide as a quarter of the shorter side."""
+    """From corner to corner: each changes the slope, by a hyperbola as wide as a quarter of the shorter side, or as a
+    sixteenth at the ends."""
     k, c = law.knots, law.coefficients
     slopes = [0.0, *np.diff(c) / np.diff(k), 0.0]
     found = float(c[0])
     for i, corner in enumerate(k):
         sides = [abs(k[j] - corner) for j in (i - 1, i + 1) if 0 <= j < len(k)]
-        found += (slopes[i + 1] - slopes[i]) * (z - corner + math.hypot(z - corner, min(sides) / 4)) / 2
+        width = min(sides) / (4 if len(sides) > 1 else 16)
+        found += (slopes[i + 1] - slopes[i]) * (z - corner + math.hypot(z - corner, width)) / 2
     return found
 
 
@@ -200,6 +202,31 @@ def test_a_bristle_remembers(lab: tuple[Path, ...]) -> None:
     model = with_law(lab, "Mass", law)
     assert run_of(model) == pytest.approx(run.y[0], abs=5e-6)
     assert (model["force.v_length"].min, model["force.v_length"].unit) == (0.002, "m")
+
+
+@pytest.mark.parametrize("variable", ["x", "warm"])
+def test_a_hysteresis_remembers_where_a_variable_came_from(lab: tuple[Path, ...], variable: str) -> None:
+    law = learned("force", Factor(Form.HYSTERESIS, variable, 0.02), "x", 0.5, "m", "N", -1.0)
+
+    def rates(t: float, state: Array) -> list[float]:
+        x, v, warm, z = state
+        pushed = float(np.interp(t, *PUSH))
+        moves = v if variable == "x" else (pushed - warm) / 0.5
+        force = pushed - 3 * v - 50 * x + curve(law, x) * z
+        return [v, force / 2, (pushed - warm) / 0.5, (moves - abs(moves) * z) / 0.02]
+
+    run = solve_ivp(rates, (0, 3), [0.0, 0.0, 0.0, 0.0], "DOP853", TIME, rtol=1e-10, atol=1e-12)
+    model = with_law(lab, "Mass", law)
+    assert run_of(model) == pytest.approx(run.y[0], abs=5e-6)
+    assert model[f"force.{variable}_length"].unit == {"x": "m", "warm": "1"}[variable]
+
+
+def test_a_law_over_the_difference_of_two_signals(lab: tuple[Path, ...]) -> None:
+    law = learned("force", V, "warm - x", 0.5, "m", "N.s/m", -2.0)
+    right = mass(lambda t, x, v, warm: curve(law, warm - x) * v)
+    model = with_law(lab, "Mass", law)
+    assert np.ptp(right - mass(lambda t, x, v, warm: 0.0)) > 0.1
+    assert run_of(model) == pytest.approx(right, abs=2e-6)
 
 
 def outputs(model: Model, *names: str) -> list[Array]:

@@ -1,18 +1,21 @@
 """Which laws there are, and that the compiled one is the curve it says, against an integrator of its own."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from pysim.diagnosis.learn.screening import distinct
+from pysim.diagnosis.learn.screening import distinct, with_moved
 from pysim.effects import Slot
 from pysim.effects.law_units import quotient
-from pysim.effects.learned import Law, Term, curve_basis, laws_at, places
+from pysim.effects.learned import LESS, Law, Term, curve_basis, laws_at, places
 from pysim.simulate import Rodas, simulate
 from pysim.types import Experiment, Signal
 from pysim.types.factor import Form
 from tests.known_answers.plants import PLANTS
 from tests.pysim.diagnosis.plants import variants
+from validation.asked import PUMP
 
 KNOTS = np.array([-0.3, -0.1, 0.0, 0.1, 0.3])
 
@@ -26,6 +29,28 @@ def test_laws_at_a_slot_depend_on_what_it_sees_and_on_states_and_inputs_besides(
     names = {(str(law.factor), law.argument) for law in laws_at(where["guideway"])}
     assert {("", "guideway.v"), ("v", "guideway.x"), ("sign(v)", "i"), ("x", "x_ref")} <= names
     assert ("v", "guideway.v") not in names
+
+
+def test_a_law_may_depend_on_the_difference_of_two_states_in_one_unit() -> None:
+    """Of the pump: the chambers' pressures alone have one."""
+    model = PUMP.model
+    where = {place.name: place for place in places(PUMP.variants.slots, model)}
+    assert [one for one in where["pistonForce"].arguments if LESS in one] == ["chamber1.p - chamber2.p"]
+    inner = [one for place in where.values() for one in place.arguments if place.sides[0].output_rate and LESS in one]
+    assert not inner
+
+
+def test_what_is_a_state_may_pull_on_a_bristle_as_it_moves() -> None:
+    where = {place.name: place for place in places(PUMP.variants.slots, PUMP.model)}
+    rng, names = np.random.default_rng(1), ("spool.u", "piston.x", "piston.v")
+    signals = {one: rng.normal(size=50) for place in where.values() for one in place.arguments} | {
+        one: rng.normal(size=50) for one in names
+    }
+    signals |= {"spoolOpening.s": signals["spool.u"], "pistonForce.x": signals["piston.x"]}
+    told = {name: with_moved(place, signals, names) for name, place in where.items()}
+    assert told["spoolOpening"].pulls == {0: "der(spoolOpening.s)"}
+    assert told["pistonForce"].pulls == {1: "pistonForce.v"}  # its speed is at hand
+    assert not told["supply"].pulls
 
 
 def test_a_slot_whose_variables_the_model_does_not_have_is_no_place() -> None:
@@ -50,7 +75,8 @@ def test_a_sign_changes_within_a_share_of_what_its_variable_does(scale: float) -
 def test_the_compiled_term_is_the_curve_times_its_factor(form: Form) -> None:
     own, c = variants("mass"), np.array([0.4, -0.5, 0.3, 0.0, -1.0])
     (place,) = places(own.slots, own.build(())[0])
-    by = 1 if form in (Form.VARIABLE, Form.SIGN, Form.BRISTLE) else None
+    by = {Form.VARIABLE: 1, Form.SIGN: 1, Form.BRISTLE: 1, Form.HYSTERESIS: 0}.get(form)
+    place = replace(place, moved=(0,)) if form is Form.HYSTERESIS else place
     law = Law(place, 0, form, by, 0.05, 9.0)
     model = own.probed((), [Term(place, KNOTS.size, bool(law.free))])
     values = dict(zip(place.coefficients(KNOTS.size), (c / 2).tolist(), strict=True))
@@ -63,7 +89,7 @@ def test_the_compiled_term_is_the_curve_times_its_factor(form: Form) -> None:
         x, v, bristle = s.tolist()
         factor = {
             Form.ONE: 1.0, Form.VARIABLE: v, Form.SIGN: np.tanh(v / 0.05), Form.BRISTLE: bristle,
-            Form.TONE: np.cos(9 * t + 0.05),
+            Form.HYSTERESIS: bristle, Form.TONE: np.cos(9 * t + 0.05),
         }[form]  # fmt: skip
         term = float(curve_basis(np.array([x]), KNOTS)[0] @ c) * factor
         return [v, 6 - 2 * v - 40 * x + term, (v - abs(v) * bristle) / 0.05]
