@@ -28,7 +28,7 @@ _LEAST, _MOST = 1e-12, 1e3
 
 
 def knots(z: Array, count: int, others: Array | None = None) -> Array:
-    """Knots (count,), increasing, of a curve over a variable with samples z (n,), in other logs `others` (k,).
+    """Knots (count,), increasing, of a curve over a variable with samples z (n,), and in further logs `others` (k,).
 
     If z has both signs, the knots are dense around zero (arcsinh scale), since most abrupt laws change there. If z is
     positive and spans a decade or more, the knots are the mean of even steps and equal ratios. The outermost knots lie

@@ -243,7 +243,7 @@ def over_all(best: Sequence[Law], laws: Sequence[Law]) -> list[Law]:
 
 
 def _stroke(steps: Array) -> float:
-    """Mean way between two reversals of what moves in steps (n,), in their unit; the whole way if it never turns."""
+    """Mean way between two reversals of what moves in these steps (n,), in their unit; all of it if nothing turns."""
     return float(np.abs(steps).sum()) / max(int(np.count_nonzero(np.diff(np.sign(steps[steps != 0])))), 1)
 
 
