@@ -6,7 +6,7 @@ import math
 import sys
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
@@ -162,6 +162,7 @@ def _fitted(found: Diagnosis) -> tuple[Path, dict[str, float]]:
     for own in found.learned:
         place, factor = where[own.slot], own.factor
         by = place.sides[0].own.index(f"{place.name}.{factor.variable}") if factor.variable else None
+        place = replace(place, moved=(by,)) if by is not None and factor.form is Form.HYSTERESIS else place
         law = Law(place, place.arguments.index(own.argument), factor.form, by, factor.number, factor.rate)
         values |= law.settings(own.knots)
         values |= dict(zip(place.coefficients(own.knots.size), own.coefficients.tolist(), strict=True))

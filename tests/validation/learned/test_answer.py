@@ -106,9 +106,8 @@ def test_every_case_has_a_row_of_as_many_cells_as_the_head() -> None:
     assert {row.count("|") for row in rows} == {head.count("|")}
 
 
-@pytest.mark.slow
-def test_a_diagnosis_that_knows_the_law_is_right() -> None:
-    case = NAMED["damping.position-large-1"]
+def knowing(case: LearnedCase, one: LearnedLaw) -> Answer:
+    """The answer of a diagnosis that has this law and the true parameters."""
     right = {name: float(getattr(case.parameters(), name)) for name in BOUNDS}
 
     def ask(session: Session) -> Diagnosis:
@@ -116,13 +115,35 @@ def test_a_diagnosis_that_knows_the_law_is_right() -> None:
             Estimate(name, "", value, value, -np.inf, np.inf, 0.0, (value, value)) for name, value in right.items()
         )
         step = ErrorStep("refit", None, None, None, {}, False, 0.0, estimates=estimates)
-        known = replace(law(case, V, "x", sd=1.0), parameters=right)
         history = (replace(step, step="model"), step, replace(step, step="the law"))
-        return Diagnosis((), False, Left({}, None, None), (), (), history, (), learned=(known,))
+        return Diagnosis(
+            (), False, Left({}, None, None), (), (), history, (), learned=(replace(one, parameters=right),)
+        )
 
-    found = answer(case, ask)
+    return answer(case, ask)
+
+
+@pytest.mark.slow
+def test_a_diagnosis_that_knows_the_law_is_right() -> None:
+    case = NAMED["damping.position-large-1"]
+    found = knowing(case, law(case, V, "pistonForce.x", sd=1.0))
     assert (found.place, found.variables, found.trouble) == (True, True, "")
     assert found.before is not None
     assert found.after is not None
     assert found.before > 5
     assert found.after < 0.2
+
+
+@pytest.mark.slow
+def test_the_fmus_of_a_hysteresis_run_as_what_was_fitted() -> None:
+    case, play = NAMED["valve.edge_play-large-1"], 0.012
+    knots, own = np.linspace(-0.5, 0.5, 5), "spoolOpening"
+    lost = LearnedLaw(own, Factor(Form.HYSTERESIS, "s", 2 * play), f"{own}.s", knots, np.full(5, -play), np.eye(5), 0.9,
+                      "1", "1")  # fmt: skip
+    found = knowing(case, lost)
+    assert (found.place, found.trouble) == (True, "")
+    assert found.exported is not None
+    assert found.exported < 1e-6
+    assert found.after is not None
+    assert found.before is not None
+    assert found.after < 0.5 * found.before
