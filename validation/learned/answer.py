@@ -157,7 +157,6 @@ def difference(found: Diagnosis, last: Step) -> float:
 def _fitted(found: Diagnosis) -> tuple[Path, dict[str, float]]:
     """FMU of the model that was fitted, with a term at each law's place, and the parameters that make them the laws."""
     where = {one.name: one for one in places(PUMP.variants.slots, PUMP.model)}
-    effects = [one.effect for one in found.effects if one.effect.class_name]
     terms, values = list[Term](), dict[str, float]()
     for own in found.learned:
         place, factor = where[own.slot], own.factor
@@ -167,7 +166,7 @@ def _fitted(found: Diagnosis) -> tuple[Path, dict[str, float]]:
         values |= law.settings(own.knots)
         values |= dict(zip(place.coefficients(own.knots.size), own.coefficients.tolist(), strict=True))
         terms.append(Term(place, own.knots.size, bool(law.free)))
-    return PUMP.variants.probed(effects, terms).path, values
+    return PUMP.variants.probed([one.effect for one in found.effects if one.effect.class_name], terms).path, values
 
 
 def _run(fmu: Path, values: Mapping[str, float]) -> Array:
