@@ -105,7 +105,7 @@ class LearnSettings:
     """How laws are learned that no catalogue has."""
 
     knots: int = setting(
-        15, unit="1", meaning="knots of a curve in the screening", source="measured: eleven miss a dead band; bench-03"
+        15, unit="1", meaning="knots of a curve, two beyond the logs", source="measured: nine within miss a dead band"
     )
     most_knots: int = setting(
         57, unit="1", meaning="knots of a curve at most", source="measured: known-answers, a magnet beside the way"
