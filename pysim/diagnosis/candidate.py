@@ -114,9 +114,9 @@ class Candidate:
         return self.space.to_search(np.clip(p, self.space.lower, self.space.upper))
 
     def held(self, values: Values) -> ParameterSpace:
-        """A space without free parameters: these values fixed, every other parameter as the model declares it."""
+        """Without free parameters: these values and those of `space.fixed`, all others as the model declares."""
         named = {key if isinstance(key, str) else f"{self.places[key[0]]}.{key[1]}": v for key, v in values.items()}
-        return ParameterSpace.held(named)
+        return ParameterSpace.held({**self.space.fixed, **named})
 
     def levels(self, residuals: WeightedResiduals, point: Point) -> Array:
         """(n_r,) level (standard deviation of the residual) of each row's channel; 1 for priors and known levels."""

@@ -14,7 +14,7 @@ from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.error_history import error_step, held_still
 from pysim.diagnosis.floors import Floors
 from pysim.diagnosis.learn.described import answered
-from pysim.diagnosis.learn.fit import LawFit, together
+from pysim.diagnosis.learn.fit import together
 from pysim.diagnosis.learn.learn import Learner, Learning
 from pysim.diagnosis.learn.names import refines, without_the_unseated
 from pysim.diagnosis.learn.outside import outside_laws
@@ -198,12 +198,14 @@ def _answer(
     wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and _lacks_much(found, account))
     wanted &= session.build_law is not None
     learning = _learned(session, search, found) if wanted and not final.candidate.has_events else None
-    laws, longer = list[Learning](), [learning] if learning is not None and learning.law is not None else []
-    while len(longer) > len(laws):
-        laws, law = longer, longer[-1].fits[0]
-        found, named = _with_law(found, named, law)
+    laws, new = list[Learning](), [learning] if learning is not None and learning.law is not None else []
+    for _ in range(session.settings.max_effects):
+        if not new or new is laws:
+            break
+        laws, law = new, new[-1].fits[0]
+        found, named = _with_laws(found, named, laws)
         account = _account(session, found, named, finest(search.fine, law.fit.simulation))
-        longer = _another(session, search, found, laws) if _lacks_much(found, account) else laws
+        new = _another(session, search, found, laws) if _lacks_much(found, account) else laws
     if wanted:
         search.say.stage("learn")
     curves = {name for one in laws for name in one.fits[0].own}
@@ -240,11 +242,13 @@ def _answer(
     )
 
 
-def _with_law(found: Found, models: Named, law: LawFit) -> tuple[Found, Named]:
-    """Result and history with a learned law as the last model, without the effects and doubts that it made needless."""
-    kept = set(law.fit.candidate.labels)
+def _with_laws(found: Found, models: Named, laws: Sequence[Learning]) -> tuple[Found, Named]:
+    """Result and history with the last of these laws as the last model, without the effects, laws and doubts that it
+    made needless."""
+    law = laws[-1].fits[0]
+    kept, learned = set(law.fit.candidate.labels), {"", *(one.fits[0].law.label for one in laws)}
     losses = {label: loss for label, loss in found.losses.items() if label in kept}
-    beside = [(name, fit) for name, fit in models if kept.issuperset(fit.candidate.labels)]
+    beside = [one for one in models if kept.issuperset(one[1].candidate.labels) and one[1].candidate.law in learned]
     floors = found.floors.with_(law.fit)
     return replace(found, final=law.fit, floors=floors, losses=losses, more=False), [*beside, (law.law.label, law.fit)]
 
@@ -291,7 +295,11 @@ def _lacks_much(found: Found, account: _Account) -> bool:
 
 def _another(session: Session, search: Search, found: Found, laws: list[Learning]) -> list[Learning]:
     """The laws and one more that is learned beside them, all refitted; the same laws if no more is found or allowed.
-    Where a single log is all there is, another law could not be contradicted."""
+    Where a single log is all there is, another law could not be contradicted.
+
+    The last law may only have stood in for the new one. It is left out if the best law at the new one's place, learned
+    without it, leaves as little of the avoidable sum of squares, but for a small share.
+    """
     many = len(laws) + len(found.final.names) >= session.settings.max_effects
     if many or len(session.dataset.logs()) < 2:
         return laws
@@ -300,11 +308,43 @@ def _another(session: Session, search: Search, found: Found, laws: list[Learning
     more = learner.learn()
     if more.law is None:
         return laws
-    scale = floors.avoidable(more.present) / max(floors.avoidable(laws[0].present), 1e-9)
-    more = replace(more, shares=tuple(scale * share for share in more.shares))
+    both = _all_refitted([*laws, more], session, search, floors)
+    fewer = _instead_of_the_last(session, search, found, laws, more.law.law.place.name)
+    lost = floors.avoidable(fewer[-1].fits[0].fit) - floors.avoidable(both[-1].fits[0].fit) if fewer else math.inf
+    return fewer if lost < LearnSettings().least * floors.avoidable(found.base) else both
+
+
+def _instead_of_the_last(
+    session: Session, search: Search, found: Found, laws: list[Learning], place: str
+) -> list[Learning]:
+    """The laws with the best one at a place instead of the last, all refitted; empty if none passes its test there."""
+    present, kept = laws[-1].present, found.final.candidate
+    if present.candidate.labels != kept.labels:  # the last law has made effects needless
+        if len(laws) > 1:
+            return []
+        candidate = search.models.alone(kept.effects, kept.nuisances, transient=present.candidate.transient)
+        present = converged(begin(candidate, present.values, present.simulation, present))
+        if not present.good:
+            return []
+    beside, floors = [one.fits[0] for one in laws[:-1]], found.floors
+    learner = Learner(
+        session, present, floors, search.tried, search.vetoed, search.say.doing, beside=beside, only=place
+    )
+    new = learner.learn()
+    return [] if new.law is None else _all_refitted([*laws[:-1], new], session, search, floors)
+
+
+def _all_refitted(laws: list[Learning], session: Session, search: Search, floors: Floors) -> list[Learning]:
+    """The laws refitted at once; the last one was learned beside the others. Its shares are then of what the first one
+    could explain."""
+    *others, last = laws
+    if not others:
+        return laws
+    scale = floors.avoidable(last.present) / max(floors.avoidable(others[0].present), 1e-9)
+    last = replace(last, shares=tuple(scale * share for share in last.shares))
     search.say.doing("refitting all laws")
-    again = together([*fits, more.fits[0]], session.settings.least_gain)
-    return [replace(one, fits=(fit, *one.fits[1:])) for one, fit in zip([*laws, more], again, strict=True)]
+    fits = together([one.fits[0] for one in laws], session.settings.least_gain)
+    return [replace(one, fits=(fit, *one.fits[1:])) for one, fit in zip([*others, last], fits, strict=True)]
 
 
 def _of_each_place(

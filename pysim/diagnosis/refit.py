@@ -245,13 +245,17 @@ def integrated(fit: FinalFit, refinements: int) -> FinalFit:
 def brought_near(fit: FinalFit, other: Point) -> Point:
     """A point on other measurements than the fitted ones, with the parameters moved within the fit's uncertainty.
 
-    The move minimises the linearised cost on both; its cost on the fitted logs is added. Source: Rasmussen and Williams
-    2006, Gaussian Processes for Machine Learning, Eq. 2.9: the predictive density without its normalisation.
+    The move minimises the linearised cost on both; its cost on the fitted logs is added. A learned curve stays as it
+    was fitted, since it could bend where the fitted logs have no data. Source: Rasmussen and Williams 2006, Gaussian
+    Processes for Machine Learning, Eq. 2.9: the predictive density without its normalisation.
     """
     n, bounds = fit.point.x.size, _bounds(fit.candidate)
     own = np.column_stack([fit.point.triangle[:n, :n], np.zeros(min(n, len(fit.point.triangle)))])
     both = triangle([own, np.column_stack([other.jacobian, other.residual])])
     low, high = np.minimum(bounds.lower - other.x, 0.0), np.maximum(bounds.upper - other.x, 0.0)
+    if fit.candidate.precision is not None:
+        curve = fit.candidate.precision.any(axis=0)
+        low[curve] = high[curve] = 0.0
     p = damped_step(both[:n, :n], -both[:n, n], EXACT, low, high)
     residual = other.residual + other.jacobian @ p
     squares = float(residual @ residual + np.sum((own[:, :n] @ p) ** 2))

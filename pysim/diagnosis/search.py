@@ -509,7 +509,7 @@ class Search:
         for smaller, larger in pairs:
             if not larger.candidate.residuals(larger.simulation, "validate").observations:
                 continue
-            opened = not (larger.candidate.law or larger.candidate.has_events)  # curves would bend without data
+            opened = not larger.candidate.has_events
             (own, cost), (other, before) = (self._beside_unfitted(one, opened) for one in (larger, smaller))
             if own is None and other is None:
                 continue

@@ -56,6 +56,7 @@ class Answer:
             where no law was learned.
         before, after: error of the refitted base model and of the last one; None where that cannot be simulated.
         seconds, cpu: of the diagnosis, by the clock and of this process.
+        learning: seconds of these, by the clock, that learning took.
         trouble: why there is no answer.
     """
 
@@ -74,6 +75,7 @@ class Answer:
     exported: float | None = None
     seconds: float = 0.0
     cpu: float = 0.0
+    learning: float = 0.0
     trouble: str = ""
 
     def __str__(self) -> str:
@@ -131,6 +133,7 @@ def answer(case: LearnedCase, ask: Callable[[Session], Diagnosis] = diagnose) ->
         difference(found, steps[-1]) if found.learned else None,
         wall,
         cpu,
+        found.seconds.get("learn", 0.0),
     )
 
 

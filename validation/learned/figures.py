@@ -41,6 +41,8 @@ def shares(answers: Sequence[Answer]) -> Iterator[Share]:
     kept = [one for one in answers if one.exported is not None and one.fitted is not None]
     other = sum(one.again is None or abs(one.again / (one.fitted or 1.0) - 1) > _SAME for one in kept)
     yield Share("learned classes that do not run as what was fitted", other, len(kept), (0, 0))
+    took = [one.learning for one in answers if one.learning]
+    yield Share("learning within 60 s, of those where it began", sum(s <= 60 for s in took), len(took))
     for condition in CONDITIONS:
         own = [one for one in answers if one.case.endswith(f"-{condition}")]
         yield Share(f"{condition}: right place", sum(one.place for one in own), len(own))
@@ -65,7 +67,8 @@ def page(answers: Sequence[Answer], title: str) -> Iterator[str]:
         "",
     )
     yield from (f"- {share}" for share in shares(answers) if share.of)
-    yield from ("", "| case | answered | place | variables | before | after | band | formula | s |", "|" + "---|" * 9)
+    yield from ("", "| case | answered | place | variables | before | after | band | formula | s (of it, learning) |")
+    yield "|" + "---|" * 9
     for one in answers:
         found = ", ".join(f"`{words}`" for words in (*one.learned, *one.effects)) or one.trouble or "nothing"
         place = "right" if one.place else "an effect there" if one.named else "**wrong**"
@@ -73,5 +76,6 @@ def page(answers: Sequence[Answer], title: str) -> Iterator[str]:
         errors = ["?" if error is None else f"{error:.2f}" for error in (one.before, one.after)]
         band = "" if one.band is None else f"{100 * one.band:.0f} %"
         formula = f"`{one.formula}`" if one.formula else ""
-        cells = (f"`{one.case}`", found, place, variables, *errors, band, formula, f"{one.seconds:.0f}")
+        seconds = f"{one.seconds:.0f} ({one.learning:.0f})"
+        cells = (f"`{one.case}`", found, place, variables, *errors, band, formula, seconds)
         yield f"| {' | '.join(cells)} |"

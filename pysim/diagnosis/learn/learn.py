@@ -79,6 +79,7 @@ class Learner:
         veto: see Veto.
         say: called with what is being done.
         beside: laws that the model has already, held; a slot takes one.
+        only: name of the one place where a law may be; "" for all.
     """
 
     def __init__(
@@ -91,12 +92,13 @@ class Learner:
         say: Say,
         settings: LearnSettings | None = None,
         beside: Sequence[LawFit] = (),
+        only: str = "",
     ) -> None:
         assert session.build_law is not None
         self._compile = session.build_law
         self._session, self._present, self._floors, self._tried = session, present, floors.sd, tried
         self._veto, self._say, self._settings = veto, say, settings or LearnSettings()
-        self._beside = tuple(beside)
+        self._beside, self._only = tuple(beside), only
         self._refused: dict[str, str] = {}
         self._rough = floors.roughest(present, session.settings.fine)
 
@@ -105,7 +107,8 @@ class Learner:
         if not self._rough.good:
             return Learning(self._present, ())
         taken = {one.law.place.name for one in self._beside}
-        where = [one for one in places(self._session.slots, self._session.model) if one.name not in taken]
+        every = places(self._session.slots, self._session.model)
+        where = [one for one in every if one.name not in taken and self._only in ("", one.name)]
         signals, choosing = (seen(self._present, where, use) for use in ("fit", "validate"))
         if not signals:
             return Learning(self._present, ())

@@ -98,9 +98,15 @@ def test_a_rise_that_chance_may_bring_vetoes_a_law_and_no_effect(
     assert search.vetoed(base, law, test).verdict is of_a_law
 
 
-def test_the_choosing_logs_say_by_how_much_their_cost_rises_as_far_as_parameters_are_open() -> None:
+@pytest.mark.parametrize("law", ["", "a law whose coefficient stays as it was fitted"])
+def test_the_choosing_logs_say_by_how_much_their_cost_rises_as_far_as_parameters_are_open(law: str) -> None:
     """Against the least cost of both uses together around the fit, sought by SciPy."""
     search, base, frail = found(2.0)
+    own = frail.candidate.keys.index(("frail.drag", "a"))
+    if law:
+        prior = np.zeros((frail.point.x.size, frail.point.x.size))
+        prior[own, own] = 1.0
+        frail = replace(frail, candidate=replace(frail.candidate, law=law, precision=prior))
     answer = search._held_out([(base, frail)])
     assert answer is not None
     costs = []
@@ -119,8 +125,10 @@ def test_the_choosing_logs_say_by_how_much_their_cost_rises_as_far_as_parameters
             move = fit.point.jacobian @ (x - fit.point.x)
             return np.concatenate([open_(x, "validate", fit), move])
 
-        bounds = candidate.space.bounds()
-        least = least_squares(both, there.x, bounds=bounds, x_scale=1e-2)
+        lower, upper = candidate.space.bounds()
+        if candidate.law:
+            lower[own], upper[own] = there.x[own] - 1e-9, there.x[own] + 1e-9
+        least = least_squares(both, there.x, bounds=(lower, upper), x_scale=1e-2)
         costs.append(plain.cost + least.cost - 0.5 * plain.square)
     assert answer[0] == pytest.approx(costs[1] - costs[0], abs=0.3)
     assert answer[1] > 0

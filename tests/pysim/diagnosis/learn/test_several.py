@@ -7,13 +7,17 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from pysim.diagnosis import diagnose, rivals
+from pysim.diagnosis import diagnose, engine, rivals
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint
 from pysim.diagnosis.learn.learn import Learner
+from pysim.diagnosis.learn.screening import seen
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.search import Search
-from pysim.types import Dataset
+from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.search import Found, Search
+from pysim.diagnosis.session import Session
+from pysim.effects.learned import places
+from pysim.types import Dataset, Record
 from pysim.types.answer import Diagnosis
 from pysim.workflow.learned import with_classes, with_laws
 from tests.pysim.diagnosis.learn.clocked import within_the_band
@@ -50,6 +54,39 @@ def test_a_dead_band_depends_on_the_voltage_and_on_nothing_else() -> None:
     (law,) = found.learned
     assert (law.slot, str(law.factor), law.argument) == ("amplifier", "", "amplifier.u")
     assert found.history[-1].validate == pytest.approx(1.0, abs=0.03)
+
+
+@cache
+def braked() -> tuple[Dataset, Session, Search, FinalFit]:
+    """An axis whose guideway brakes towards its ends, and the refitted model without."""
+    data = measured("axis", {"damper": {"d_2": 1e3}}, fit=(1,), validate=(3,))
+    opened = given("axis", data, [])
+    search = Search(Models(opened), FINE, opened.settings, Progress(lambda told: None), Checkpoint(None, ""))
+    base = search.fit_base()
+    search.floors = search.floors.with_(base)
+    return data, opened, search, base
+
+
+def test_a_law_that_stood_in_for_a_later_one_is_left_out() -> None:
+    """The first law was learned where the amplifier alone could have one."""
+    _, opened, search, base = braked()
+    first = Learner(opened, base, search.floors, 1, search.vetoed, lambda said: None, only="amplifier").learn()
+    assert first.law is not None
+    (law,) = engine._another(opened, search, Found(base, first.fits[0].fit, (), search.floors), [first])
+    assert law.law is not None
+    assert law.law.found.label == "guideway: v * h(guideway.x)"
+    assert law.present is base
+    assert max(search.floors.over(law.law.fit).values()) < 1.05
+
+
+def test_a_second_law_is_placed_by_runs_of_the_model_with_the_first() -> None:
+    data, opened, search, base = braked()
+    law = Learner(opened, base, search.floors, 1, search.vetoed, lambda said: None, only="guideway").learn().law
+    assert law is not None
+    logged, where = data.records[0].data, places(opened.slots, opened.model)
+    assert isinstance(logged, Record)
+    off = [np.std(seen(fit, where)["guideway.x"] - logged["x"]) for fit in (base, law.held)]
+    assert off[1] < 0.5 * off[0]
 
 
 def test_the_classes_of_both_laws_leave_what_the_answer_says(tmp_path: Path) -> None:
