@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
@@ -12,22 +11,19 @@ from pysim.diagnosis import verdict
 from pysim.diagnosis.candidate import Models, Refused
 from pysim.diagnosis.checkpoint import Checkpoint, whose
 from pysim.diagnosis.error_history import error_step, held_still
-from pysim.diagnosis.floors import Floors
-from pysim.diagnosis.learn.described import answered
-from pysim.diagnosis.learn.fit import together
-from pysim.diagnosis.learn.learn import Learner, Learning
-from pysim.diagnosis.learn.names import refines, without_the_unseated
+from pysim.diagnosis.law_search import LawSearch, of_each_place
+from pysim.diagnosis.learn.learn import Learning
 from pysim.diagnosis.learn.outside import outside_laws
 from pysim.diagnosis.left import follows, tone
 from pysim.diagnosis.next_test import next_test
 from pysim.diagnosis.progress import Progress, Say
-from pysim.diagnosis.refit import FinalFit, begin, converged, finest, integrated
+from pysim.diagnosis.refit import FinalFit, finest, integrated
 from pysim.diagnosis.search import Found, Search
 from pysim.diagnosis.session import Session
 from pysim.diagnosis.settings import LearnSettings
 from pysim.identify.greybox import Simulation
 from pysim.types import BadInput, Effect, NextTest, Note, NoteCode
-from pysim.types.answer import PRIOR, REFIT, Diagnosis, ErrorStep, LearnedLaw, Left, Verdict
+from pysim.types.answer import PRIOR, REFIT, Diagnosis, ErrorStep, Left, Verdict
 
 Named = Sequence[tuple[str, FinalFit]]  # steps of the error history: name and model
 
@@ -197,15 +193,11 @@ def _answer(
     estimates = held_still(final)[0] if refitted else ()
     wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and _lacks_much(found, account))
     wanted &= session.build_law is not None
-    learning = _learned(session, search, found) if wanted and not final.candidate.has_events else None
-    laws, new = list[Learning](), [learning] if learning is not None and learning.law is not None else []
-    for _ in range(session.settings.max_effects):
-        if not new or new is laws:
-            break
-        laws, law = new, new[-1].fits[0]
-        found, named = _with_laws(found, named, laws)
-        account = _account(session, found, named, finest(search.fine, law.fit.simulation))
-        new = _another(session, search, found, laws) if _lacks_much(found, account) else laws
+    learning, laws = None, list[Learning]()
+    if wanted and not final.candidate.has_events:
+        learning = LawSearch(session, search).first(found)
+    if learning is not None and learning.law is not None:
+        found, account, laws = _with_laws(session, search, found, named, learning)
     if wanted:
         search.say.stage("learn")
     curves = {name for one in laws for name in one.fits[0].own}
@@ -217,7 +209,7 @@ def _answer(
     _said(search.say, history)
     search.say.stage("intervals")
     settles, unsettled = _next_test(session, found)
-    learned, missing = _of_each_place(laws or ([learning] if learning else []), history)
+    learned, missing = of_each_place(laws or ([learning] if learning else []), history)
     of_law = [verdict.note_of_laws(learning, final)] if wanted and not learned else []
     places = {} if learning is None else {place: Refused(why) for place, why in learning.refused.items()}
     refused = search.models.refused | places
@@ -242,48 +234,26 @@ def _answer(
     )
 
 
-def _with_laws(found: Found, models: Named, laws: Sequence[Learning]) -> tuple[Found, Named]:
-    """Result and history with the last of these laws as the last model, without the effects, laws and doubts that it
-    made needless."""
-    law = laws[-1].fits[0]
-    kept, learned = set(law.fit.candidate.labels), {"", *(one.fits[0].law.label for one in laws)}
-    losses = {label: loss for label, loss in found.losses.items() if label in kept}
-    beside = [one for one in models if kept.issuperset(one[1].candidate.labels) and one[1].candidate.law in learned]
-    floors = found.floors.with_(law.fit)
-    return replace(found, final=law.fit, floors=floors, losses=losses, more=False), [*beside, (law.law.label, law.fit)]
+def _with_laws(
+    session: Session, search: Search, found: Found, models: Named, first: Learning
+) -> tuple[Found, _Account, list[Learning]]:
+    """The result with a law, and with further ones as long as much is missing; its account; and the laws.
 
-
-def _learned(session: Session, search: Search, found: Found) -> Learning:
-    """Learn the best law beside the base model and, if it cannot take the place of the effects, beside these.
-
-    It takes their place if it explains clearly more than they do ("unseats"), refines none of them, and a law beside
-    them explains little more. Of the effects beside a law those are dropped that it makes needless.
+    Effects, sensor errors and doubts that a law made needless are left out, and steps of the history that had these.
     """
-    floors, settings = found.floors, LearnSettings()
-    alone = _law_beside(found.base, session, search, floors)
-    if found.final is found.base:
-        return alone
-    base, final, left = floors.avoidable(found.base), floors.avoidable(found.final), math.inf
-    if alone.law is not None and not any(refines(alone.law.law, one) for one in found.final.candidate.effects):
-        own = floors.avoidable(alone.law.fit)
-        left = own if final - own > settings.unseats * base else math.inf
-    if left <= settings.least * base:
-        return alone
-    learning, best = _law_beside(found.final, session, search, floors), final
-    if learning.law is not None:
-        tried, one = search.models.alone, learning.law
-        law = without_the_unseated(
-            session, one, learning.present, found.base, found.losses, tried, floors, search.tried
-        )
-        learning, best = replace(learning, fits=(law, *learning.fits[1:])), floors.avoidable(law.fit)
-    return alone if left - best < settings.least * base else learning
-
-
-def _law_beside(present: FinalFit, session: Session, search: Search, floors: Floors) -> Learning:
-    """The best law beside a model."""
-    if session.has_clock and not present.candidate.transient:
-        present = _alone(present, search, transient=True)
-    return Learner(session, present, floors, search.tried, search.vetoed, search.say.doing).learn()
+    laws, steps, more = list[Learning](), list[tuple[str, FinalFit]](), [first]
+    for _ in range(session.settings.max_effects):
+        laws, law = more, more[-1].fits[0]
+        kept, floors = set(law.fit.candidate.labels), found.floors.with_(law.fit)
+        losses = {label: loss for label, loss in found.losses.items() if label in kept}
+        found = replace(found, final=law.fit, floors=floors, losses=losses, more=False)
+        steps = [*steps[: len(laws) - 1], (law.law.label, law.fit)]
+        named = [one for one in (*models, *steps) if kept.issuperset(one[1].candidate.labels)]
+        account = _account(session, found, named, finest(search.fine, law.fit.simulation))
+        more = LawSearch(session, search).another(found, laws) if _lacks_much(found, account) else laws
+        if more is laws:
+            break
+    return found, account, laws
 
 
 def _lacks_much(found: Found, account: _Account) -> bool:
@@ -291,73 +261,6 @@ def _lacks_much(found: Found, account: _Account) -> bool:
     floors = found.floors
     much = floors.avoidable(found.final) > LearnSettings().least * floors.avoidable(found.base)
     return much and not account.complete
-
-
-def _another(session: Session, search: Search, found: Found, laws: list[Learning]) -> list[Learning]:
-    """The laws and one more that is learned beside them, all refitted; the same laws if no more is found or allowed.
-    Where a single log is all there is, another law could not be contradicted.
-
-    The last law may only have stood in for the new one. It is left out if the best law at the new one's place, learned
-    without it, leaves as little of the avoidable sum of squares, but for a small share.
-    """
-    many = len(laws) + len(found.final.names) >= session.settings.max_effects
-    if many or len(session.dataset.logs()) < 2:
-        return laws
-    fits, floors = [one.fits[0] for one in laws], found.floors
-    learner = Learner(session, fits[-1].held, floors, search.tried, search.vetoed, search.say.doing, beside=fits)
-    more = learner.learn()
-    if more.law is None:
-        return laws
-    both = _all_refitted([*laws, more], session, search, floors)
-    fewer = _instead_of_the_last(session, search, found, laws, more.law.law.place.name)
-    lost = floors.avoidable(fewer[-1].fits[0].fit) - floors.avoidable(both[-1].fits[0].fit) if fewer else math.inf
-    return fewer if lost < LearnSettings().least * floors.avoidable(found.base) else both
-
-
-def _instead_of_the_last(
-    session: Session, search: Search, found: Found, laws: list[Learning], place: str
-) -> list[Learning]:
-    """The laws with the best one at a place instead of the last, all refitted; empty if none passes its test there."""
-    present, kept = laws[-1].present, found.final.candidate
-    if present.candidate.labels != kept.labels:  # the last law has made effects needless
-        if len(laws) > 1:
-            return []
-        candidate = search.models.alone(kept.effects, kept.nuisances, transient=present.candidate.transient)
-        present = converged(begin(candidate, present.values, present.simulation, present))
-        if not present.good:
-            return []
-    beside, floors = [one.fits[0] for one in laws[:-1]], found.floors
-    learner = Learner(
-        session, present, floors, search.tried, search.vetoed, search.say.doing, beside=beside, only=place
-    )
-    new = learner.learn()
-    return [] if new.law is None else _all_refitted([*laws[:-1], new], session, search, floors)
-
-
-def _all_refitted(laws: list[Learning], session: Session, search: Search, floors: Floors) -> list[Learning]:
-    """The laws refitted at once; the last one was learned beside the others. Its shares are then of what the first one
-    could explain."""
-    *others, last = laws
-    if not others:
-        return laws
-    scale = floors.avoidable(last.present) / max(floors.avoidable(others[0].present), 1e-9)
-    last = replace(last, shares=tuple(scale * share for share in last.shares))
-    search.say.doing("refitting all laws")
-    fits = together([one.fits[0] for one in laws], session.settings.least_gain)
-    return [replace(one, fits=(fit, *one.fits[1:])) for one, fit in zip([*others, last], fits, strict=True)]
-
-
-def _of_each_place(
-    laws: Sequence[Learning], history: Sequence[ErrorStep]
-) -> tuple[tuple[LearnedLaw, ...], tuple[LearnedLaw, ...]]:
-    """The laws that were kept, and the best law of each place, as `Diagnosis` has them."""
-    steps = range(-len(laws), 0)
-    answers = [
-        answered(one, (history[k - 1].validate, history[k].validate)) for k, one in zip(steps, laws, strict=True)
-    ]
-    learned = tuple(law for kept, _ in answers for law in kept)
-    taken = {law.slot for law in learned}
-    return learned, (*learned, *(law for _, places in answers[:1] for law in places if law.slot not in taken))
 
 
 def _next_test(session: Session, found: Found) -> tuple[NextTest | None, list[Note]]:
@@ -380,7 +283,7 @@ def _in_true_form(found: Found, search: Search, *, keep: bool) -> Found:
     """
     if not found.final.names:
         return found
-    final = _alone(found.final, search)
+    final = search.in_true_form(found.final)
     for effect in [] if keep else [one for one in final.candidate.effects if one.smooth]:
         smaller = search.without(found.final, effect.name)
         if search.test(smaller, final).verdict is not Verdict.BETTER:
@@ -390,26 +293,10 @@ def _in_true_form(found: Found, search: Search, *, keep: bool) -> Found:
     return replace(found, final=final)
 
 
-def _alone(fit: FinalFit, search: Search, *, transient: bool = False) -> FinalFit:
-    """The model compiled with its own effects only, in their true form, and refitted to the end from the fit's values.
-
-    If this form differs from the search's, runs are ten times finer. Returns `fit` if it does not compile or run.
-    """
-    try:
-        candidate = search.models.alone(fit.candidate.effects, fit.candidate.nuisances, transient=transient)
-    except BadInput:
-        return fit
-    alike = candidate.transient == fit.candidate.transient and not candidate.has_events
-    same = alike and not any(effect.smooth for effect in candidate.effects)
-    simulation = fit.simulation if same else search.fine.finer()
-    again = converged(begin(candidate, fit.values, simulation, fit if alike else None))
-    return again if again.good else fit
-
-
 def _kept(found: Found, models: Sequence[FinalFit], final: FinalFit, search: Search) -> Named:
     """Steps of the error history beyond the base model; effects that are significant only together share a step."""
     if models:
-        return [(fit.names[-1], final if fit is models[-1] else _alone(fit, search)) for fit in models]
+        return [(fit.names[-1], final if fit is models[-1] else search.in_true_form(fit)) for fit in models]
     kept, steps, waiting = set(final.candidate.labels), list[tuple[str, FinalFit]](), list[str]()
     for step in found.steps:
         if step.added not in kept:
@@ -421,7 +308,7 @@ def _kept(found: Found, models: Sequence[FinalFit], final: FinalFit, search: Sea
     if final.names:
         last = " + ".join([*(waiting or [steps.pop()[0] if steps else " + ".join(final.names)])])
         steps.append((last, final))
-    return [(name, fit if fit is final else _alone(fit, search)) for name, fit in steps]
+    return [(name, fit if fit is final else search.in_true_form(fit)) for name, fit in steps]
 
 
 def _said(say: Progress, history: Sequence[ErrorStep]) -> None:

@@ -396,6 +396,22 @@ class Search:
             self._fits[key] = self._once(part, find, other)
         return self._fits[key]
 
+    def in_true_form(self, fit: FinalFit, *, transient: bool = False) -> FinalFit:
+        """The model compiled with its own effects only, in their true form, and refitted to the end from the fit's
+        values. If this form differs from the search's, runs are ten times finer. Returns `fit` if it does not compile
+        or run.
+        """
+        own = fit.candidate
+        try:
+            candidate = self.models.alone(own.effects, own.nuisances, transient=transient)
+        except BadInput:
+            return fit
+        alike = candidate.transient == own.transient and not candidate.has_events
+        same = alike and not any(effect.smooth for effect in candidate.effects)
+        simulation = fit.simulation if same else self.fine.finer()
+        again = converged(begin(candidate, fit.values, simulation, fit if alike else None))
+        return again if again.good else fit
+
     def test(self, smaller: FinalFit, larger: FinalFit, choices: int | None = None) -> GainTest:
         """F test of the larger model against the smaller one, on the fitted logs.
 

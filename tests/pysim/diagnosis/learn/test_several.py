@@ -7,9 +7,10 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from pysim.diagnosis import diagnose, engine, rivals
+from pysim.diagnosis import diagnose, rivals
 from pysim.diagnosis.candidate import Models
 from pysim.diagnosis.checkpoint import Checkpoint
+from pysim.diagnosis.law_search import LawSearch
 from pysim.diagnosis.learn.learn import Learner
 from pysim.diagnosis.learn.screening import seen
 from pysim.diagnosis.progress import Progress
@@ -72,7 +73,7 @@ def test_a_law_that_stood_in_for_a_later_one_is_left_out() -> None:
     _, opened, search, base = braked()
     first = Learner(opened, base, search.floors, 1, search.vetoed, lambda said: None, only="amplifier").learn()
     assert first.law is not None
-    (law,) = engine._another(opened, search, Found(base, first.fits[0].fit, (), search.floors), [first])
+    (law,) = LawSearch(opened, search).another(Found(base, first.fits[0].fit, (), search.floors), [first])
     assert law.law is not None
     assert law.law.found.label == "guideway: v * h(guideway.x)"
     assert law.present is base
