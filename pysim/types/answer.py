@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum
@@ -280,6 +281,7 @@ class LearnedLaw:
         parameters: free numbers of the model, by name, refitted beside the law.
         test: against the model without it; None where it was not refitted to the end.
         held_out: rms over floor of the logs that may choose, without the law and with it; None where there are none.
+        reach: smallest and largest argument in the fitted logs; the outermost knots where it is not known.
     """
 
     slot: str
@@ -299,6 +301,7 @@ class LearnedLaw:
     parameters: Mapping[str, float] = field(default_factory=dict)
     test: GainTest | None = None
     held_out: tuple[float | None, float | None] = (None, None)
+    reach: tuple[float, float] = (math.nan, math.nan)
 
     def __post_init__(self) -> None:
         for name in ("knots", "coefficients", "covariance", "absorbed"):
@@ -307,6 +310,8 @@ class LearnedLaw:
             object.__setattr__(self, name, values)
         object.__setattr__(self, "parameters", FrozenMapping(self.parameters))
         m = self.knots.size
+        if m and math.isnan(self.reach[0]):
+            object.__setattr__(self, "reach", (float(self.knots[0]), float(self.knots[-1])))
         if self.coefficients.shape != (m,) or self.covariance.shape != (m, m):
             raise BadInput(
                 f"learned law at {self.slot}: {m} knots need {m} coefficients and their ({m}, {m}) covariance"

@@ -161,7 +161,7 @@ def _learned(law: LearnedLaw) -> Json:
         "slot": law.slot,
         **_factor(law.factor),
         "argument": law.argument,
-        "range": law.knots[[0, -1]] if law.knots.size else None,
+        "range": law.reach if law.knots.size else None,
         "knots": law.knots,
         "coefficients": law.coefficients,
         "covariance": law.covariance,

@@ -49,8 +49,8 @@ class Answer:
         place: whether all places are right and none is wrong; of a law that cannot be seen, whether nothing was added.
         named: the same where an effect of the catalogue at a right place counts as a law there.
         variables: whether the laws at right places depend on the right variables; None where that is not asked.
-        band: share of the first curve's range over which its 95 percent band holds the true curve; None where the true
-            law is no curve of these variables.
+        band: share of what the first curve's argument ran through in the fitted logs, over which its 95 percent band
+            holds the true curve; None where the true law is no curve of these variables.
         fitted, again: residual over the noise on the wave that may choose, as the answer states it and of the class.
         exported: largest difference of its FMUs of FMI 2 and 3 from the fitted model, all in FMPy, over the range; None
             where no law was learned.
@@ -219,7 +219,7 @@ def _bare(law: LearnedLaw, name: str) -> str:
 
 
 def band(case: LearnedCase, law: LearnedLaw) -> float | None:
-    """Share of the range over which the curve's 95 percent band holds the truth; what is absorbed is free.
+    """Share of the fitted logs' range over which the curve's 95 percent band holds the truth; what is absorbed is free.
 
     The true curve is taken in the scale of the model's piston, whose area tells it.
     """
@@ -234,7 +234,7 @@ def band(case: LearnedCase, law: LearnedLaw) -> float | None:
     scale = law.parameters.get("A_p", true.A_p) / true.A_p
     size = scale ** (_OF_SCALE.get(law.slot, 0) - (0 if signed else _OF_SCALE.get(factor, 0)))
     along = scale ** -_OF_SCALE.get(argument, 0)
-    z = np.linspace(law.knots[0], law.knots[-1], _PLACES)
+    z = np.linspace(*law.reach, _PLACES)
     basis = curve_basis(z, law.knots)
     deviation = np.sqrt(np.maximum(np.einsum("ij,jk,ik->i", basis, law.covariance, basis), 0))
     wrong = basis @ law.coefficients - size * curve(along * z, case.laws()[0], true)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -9,6 +10,7 @@ from numpy.typing import NDArray
 
 from pysim.diagnosis.learn.basis import Smoothness, bends, lines, missed
 from pysim.diagnosis.learn.learn import Learning
+from pysim.diagnosis.learn.screening import samples
 from pysim.effects.law_units import quotient
 from pysim.effects.learned import LESS, TIME, Law
 from pysim.types import Model
@@ -45,7 +47,7 @@ def answered(
     model, keys = learning.present.candidate.model, learning.present.candidate.space.keys
     laws: list[LearnedLaw] = []
     for k, fit in enumerate(learning.fits):
-        law = _law(fit.found, model, fit.knots, fit.unit * fit.values)
+        law = _law(fit.found, model, fit.knots, fit.unit * fit.values, learning.signals)
         known = covariance_of(fit.gram, fit.smoothness, fit.values, learning.inflated)
         numbers = fit.fit.candidate.space.to_model(fit.fit.point.x).tolist()
         law = replace(law, share=learning.shares[k], edf=fit.edf, parameters=dict(zip(keys, numbers, strict=False)))
@@ -55,7 +57,7 @@ def answered(
     if learning.law is not None:
         laws[0] = replace(laws[0], held_out=held_out)
     for one in learning.ranked:
-        law = _law(one.law, model, one.knots, one.curve.values * one.unit)
+        law = _law(one.law, model, one.knots, one.curve.values * one.unit, learning.signals)
         known = covariance_of(one.curve.gram, one.curve.smoothness, one.curve.values, 1.0)
         laws.append(_with(replace(law, share=one.share, edf=one.curve.edf), known, one.unit))
     best: dict[str, LearnedLaw] = {}
@@ -66,7 +68,8 @@ def answered(
     return (() if kept is None else (kept,)), tuple(law for law in places if law.share > SHOWN)
 
 
-def _law(law: Law, model: Model, knots: Array, values: Array) -> LearnedLaw:
+def _law(law: Law, model: Model, knots: Array, values: Array, signals: Mapping[str, Array]) -> LearnedLaw:
+    z, _ = samples(law, signals)
     side = law.place.sides[0]
     argument, factor = law.seen(side)
     unit = model[side.output].unit or "1"
@@ -76,7 +79,8 @@ def _law(law: Law, model: Model, knots: Array, values: Array) -> LearnedLaw:
         unit = quotient(unit, model[factor].unit or "1")
     empty = np.zeros((knots.size, knots.size))
     argument_unit = "s" if argument == TIME else model[argument.split(LESS)[0]].unit or "1"
-    return LearnedLaw(law.place.name, law.factor, argument, knots, values, empty, 0.0, argument_unit, unit)
+    found = LearnedLaw(law.place.name, law.factor, argument, knots, values, empty, 0.0, argument_unit, unit)
+    return replace(found, reach=(float(z.min()), float(z.max())))
 
 
 def _with(law: LearnedLaw, known: Known, unit: float) -> LearnedLaw:

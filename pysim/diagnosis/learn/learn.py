@@ -51,6 +51,7 @@ class Learning:
         alternatives: other places whose laws the data do not separate from the best one.
         inflated: lambda of the best law's gain.
         refused: place -> why no law could be tried there.
+        signals: samples of the model's variables in the fitted logs, see `seen`.
     """
 
     present: FinalFit
@@ -61,6 +62,7 @@ class Learning:
     alternatives: tuple[str, ...] = ()
     inflated: float = 1.0
     refused: Mapping[str, str] = field(default_factory=dict)
+    signals: Mapping[str, Array] = field(default_factory=dict, repr=False)
 
     @property
     def law(self) -> LawFit | None:
@@ -131,7 +133,7 @@ class Learner:
             ranked, laws = sorted([*ranked, *more], key=lambda one: -one.score), [*laws, *(one.law for one in more)]
             fits = self._ordered([*fits, *self._raced(others, more, ranked)])
         if not fits:
-            return Learning(self._present, tuple(ranked), refused=self._refused)
+            return Learning(self._present, tuple(ranked), refused=self._refused, signals=signals)
         self._say(f"refitting {fits[0].law.label}")
         best = self._finished(fits[0])
         test, end = self._tested(best, len(laws)), (best, *fits[1:])
@@ -144,6 +146,7 @@ class Learner:
             self._ties(fits),
             self._colour(best, self._present),
             self._refused,
+            signals,
         )
 
     def _model(self, place: Place, count: int, *, memory: bool = False) -> LawModel | None:

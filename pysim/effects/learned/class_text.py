@@ -73,9 +73,9 @@ def learned_class(
         rate = next((writer.rate(side) for side in sides if side.rate == left), "")
         equations.append(f"{left} = {_sum(right, term or rate)}" if left else right)
     argument, unit = writer.argument, law.argument_unit
-    reach = f"{law.knots[0]:.4g} to {law.knots[-1]:.4g} {unit}"
-    comment = f"Learned from measurements, for {argument} from {reach}.\nBeyond that range the law is not known"
-    comment += "." if formula else "; the curve is constant there."
+    reach = f"{law.reach[0]:.4g} to {law.reach[1]:.4g} {unit}"
+    comment = f"Learned from measurements, for {argument} from {reach}.\nBeyond that range the law is not known."
+    comment += "" if formula else "\nThe curve is constant beyond its outermost knots."
     note = f"{VENDOR}(effect={quoted(effect)}, slot={quoted(slot.name)})" if effect else ""
     return class_text(
         name,

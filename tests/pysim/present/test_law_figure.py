@@ -23,6 +23,10 @@ def test_axes_are_in_units_that_people_read() -> None:
     assert axes.lines[0].get_ydata()[0] == pytest.approx(80.0)
 
 
+def test_nothing_is_drawn_beyond_the_logs() -> None:
+    assert law_figure(replace(FRICTION, reach=(-0.1, 0.2))).axes[0].get_xlim() == pytest.approx((-100, 200))
+
+
 def test_a_speed_of_a_shaft_is_read_in_rpm() -> None:
     axes = law_figure(replace(FRICTION, argument_unit="rad/s")).axes[0]
     assert axes.get_xlabel() == "pistonForce.v (rpm)"

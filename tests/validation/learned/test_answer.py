@@ -60,6 +60,10 @@ def test_the_band_is_asked_of_the_right_curve_alone() -> None:
     off = replace(right, coefficients=right.coefficients + 3000.0)
     assert band(case, off) == 0.0
     assert band(case, replace(off, absorbed=np.ones((15, 1)))) == 1.0
+    ends = np.isin(np.arange(15), [0, 14])
+    wrong = replace(right, coefficients=right.coefficients + 3000.0 * ends)
+    assert 0.5 < band(case, wrong) < 1.0
+    assert band(case, replace(wrong, reach=(wrong.knots[1], wrong.knots[-2]))) == 1.0
 
 
 def test_the_band_is_asked_in_the_scale_of_the_models_piston() -> None:
@@ -68,7 +72,10 @@ def test_the_band_is_asked_in_the_scale_of_the_models_piston() -> None:
     right = law(case, V, "x", sd=60.0)
     area = {"A_p": 1.25 * case.parameters().A_p}
     values, spread = 1.25**2 * right.coefficients, 1.25**4 * right.covariance
-    scaled = replace(right, knots=right.knots / 1.25, coefficients=values, covariance=spread, parameters=area)
+    reach = (right.reach[0] / 1.25, right.reach[1] / 1.25)
+    scaled = replace(
+        right, knots=right.knots / 1.25, coefficients=values, covariance=spread, parameters=area, reach=reach
+    )
     assert band(case, scaled) == pytest.approx(band(case, right), abs=0.02)
     assert band(case, replace(scaled, parameters={})) < 0.8
     assert band(case, replace(right, parameters=area)) < 0.8

@@ -41,7 +41,7 @@ def law_figure(law: LearnedLaw, samples: NDArray[np.float64] | None = None) -> F
     band = top.fill_between(z, low * scale_out, high * scale_out, color=style.COLOURS[0], alpha=0.25, linewidth=0)
     (line,) = top.plot(z, law.coefficients * scale_out, color=style.COLOURS[0], linewidth=1.5)
     top.axhline(0.0, color=style.LIMIT, linewidth=0.9)
-    top.set_xlim(float(z[0]), float(z[-1]))
+    top.set_xlim(*(end * scale_in for end in law.reach))
     bottom.set_xlabel(f"{law.argument} ({unit_in})")
     top.set_ylabel(f"Missing {law_kind(law)} at {law.slot} ({unit_out})")
     style.legend_above(figure, [line, band], [f"explains {100 * law.share:.0f} % of the misfit", "95 % band"])

@@ -36,11 +36,15 @@ def worn(choosing: int = 1) -> tuple[Dataset, Diagnosis]:
 
 
 def test_a_second_law_is_learned_beside_the_first_and_both_are_refitted() -> None:
-    _, found = worn()
+    data, found = worn()
     assert [law.slot for law in found.learned] == ["guideway", "amplifier"]
     (damping, voltage), steps = found.learned, found.history
     assert (str(damping.factor), damping.argument, str(voltage.factor)) == ("v", "guideway.x", "sign(u)")
     assert within_the_band(damping, -1e4 * damping.knots**2) > 0.8
+    logged = data.records[0].data
+    assert isinstance(logged, Record)
+    assert damping.reach == pytest.approx((logged["x"].min(), logged["x"].max()), abs=0.05 * np.ptp(logged["x"]))
+    assert damping.knots[0] < damping.reach[0] < damping.reach[1] < damping.knots[-1]
     errors = [step.validate for step in steps[1:]]
     assert [law.held_out for law in found.learned] == [(errors[0], errors[1]), (errors[1], errors[2])]
     assert errors[0] > 2 * errors[1] > 4 * errors[2]
