@@ -151,7 +151,7 @@ def with_law(base: ParameterSpace, law: Law, first: Sequence[str], k: Array, uni
 
 def seen(present: FinalFit, places: Sequence[Place], use: str = "fit") -> dict[str, Array]:
     """Samples (n,) of every variable that a law may depend on, from the fitted model's runs of the logs with this use;
-    empty if there are none or all fail."""
+    empty if there are none, all fail, or the model is unstable, so that the squares of a variable overflow."""
     wanted = {name for place in places for side in place.sides for name in (*side.own, *place.outside)} - {TIME}
     model = present.candidate.model
     names = {name for one in wanted for name in one.split(LESS)} | set(model.abilities.states)
@@ -166,7 +166,9 @@ def seen(present: FinalFit, places: Sequence[Place], use: str = "fit") -> dict[s
         replace(r, times=r.times[:: math.ceil(r.times.size / _SAMPLES)], record=tuple(sorted(names))) for r in runs
     ]
     records = [r for r in simulate_many(model, looked, solver=Rodas(1e-3, 1e-3)) if r.outcome is Outcome.DONE]
-    if not records:
+    with np.errstate(over="ignore"):
+        bounded = all(np.isfinite(np.square(r.values)).all() for r in records)
+    if not records or not bounded:
         return {}
     found = {name: np.concatenate([r[name] for r in records]) for name in names}
     found |= {one: found[one.split(LESS)[0]] - found[one.split(LESS)[1]] for one in wanted if LESS in one}

@@ -1,5 +1,6 @@
 """Several laws that no catalogue holds: learned one after the other, and the order of those that compete."""
 
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from types import SimpleNamespace
@@ -14,7 +15,7 @@ from pysim.diagnosis.law_search import LawSearch
 from pysim.diagnosis.learn.learn import Learner
 from pysim.diagnosis.learn.screening import seen
 from pysim.diagnosis.progress import Progress
-from pysim.diagnosis.refit import FinalFit
+from pysim.diagnosis.refit import FinalFit, begin
 from pysim.diagnosis.search import Found, Search
 from pysim.diagnosis.session import Session
 from pysim.effects.learned import places
@@ -92,6 +93,18 @@ def test_a_second_law_is_placed_by_runs_of_the_model_with_the_first() -> None:
     assert isinstance(logged, Record)
     off = [np.std(seen(fit, where)["guideway.x"] - logged["x"]) for fit in (base, law.held)]
     assert off[1] < 0.5 * off[0]
+
+
+@pytest.mark.parametrize(("damping", "learns"), [(2.0, True), (-60.0, False)])
+def test_beside_an_unstable_model_no_law_is_tried(damping: float, learns: bool) -> None:
+    """With negative damping the mass of 1 kg is about 1e200 m away when the log of 8 s ends."""
+    opened = given("mass", measured("mass", fit=(1,)), [], initial="near rest")
+    search = Search(Models(opened), FINE, opened.settings, Progress(lambda told: None), Checkpoint(None, ""))
+    candidate = search.models.of(())
+    space = replace(candidate.space, lower=np.array([0.5, -100.0, 1.0]))
+    candidate = replace(candidate, problem=replace(candidate.problem, space=space))
+    base = begin(candidate, {"m": 1.0, "d": damping, "k": 40.0}, FINE)
+    assert bool(seen(base, places(opened.slots, opened.model))) is learns
 
 
 def test_the_classes_of_both_laws_leave_what_the_answer_says(tmp_path: Path) -> None:
