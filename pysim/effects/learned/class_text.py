@@ -210,14 +210,15 @@ class _Writer:
 
     def _curve(self, function: str = "curve") -> str:
         if self._formula is not None:
-            write = self._formula.written if function == "curve" else self._formula.slope
-            return f"({write(self.argument)})"
+            text = (self._formula.written if function == "curve" else self._formula.slope)(self.argument)
+            return text if text.isidentifier() else f"({text})"
         return f"{function}({self.argument}, {self._knots}, {self._widths}, {self._coefficients})"
 
     def term(self, side: _Side) -> str:
         """The expression that is added to a side's variable."""
-        curve = self._curve()
-        return self._on(side, f"{curve}*{self._factor}" if self._factor else curve)
+        if self._formula is not None and not self._factor:
+            return self._on(side, self._formula.written(self.argument))
+        return self._on(side, "*".join(filter(None, (self._curve(), self._factor))))
 
     def rate(self, side: _Side) -> str:
         """Time derivative of the term; raises BadInput if the slot lacks a rate that it needs."""
@@ -245,7 +246,8 @@ class _Writer:
         if self._bristle:
             name, speed, length = self._bristle
             unit = (self._units.get(name) or "1").removesuffix("/s" if speed == name else "")
-            bounds = (length / REACH, length * REACH, length)
+            nominal = rounded_up(length)
+            bounds = (nominal / REACH, nominal * REACH, nominal)
             own = EffectParameter(f"{name}_length", unit, *bounds, length, None, "Length of the bristle (Dahl 1968)")
             found.append(parameter_text(own))
             found.append(f'Real {name}_bristle(unit="1", start=0, fixed=true) "Bristle over its length, -1 to 1"')
