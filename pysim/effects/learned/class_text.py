@@ -250,7 +250,7 @@ class _Writer:
             bounds = (nominal / REACH, nominal * REACH, nominal)
             own = EffectParameter(f"{name}_length", unit, *bounds, length, None, "Length of the bristle (Dahl 1968)")
             found.append(parameter_text(own))
-            found.append(f'Real {name}_bristle(unit="1", start=0, fixed=true) "Bristle over its length, -1 to 1"')
+            found.append(f'Real {name}_bristle(unit="1", min=-1, max=1, start=0, fixed=true) "Bristle over its length"')
         if self._formula is not None:
             return found + [parameter_text(one) for one in self._formula.parameters]
         values = self._law.coefficients

@@ -188,9 +188,11 @@ def time_logs(context: Context, records: Sequence[tuple[int, MeasuredRecord]]) -
     logs = [_log(context, record, index, one) for (index, record), one in zip(records, known, strict=True)]
     free = [i for i, one in enumerate(known) if one not in ("model", "rest")]
     ranges = _state_ranges(context, [logs[i].run.experiment for i in free])
+    states = [context.model[name] for name in context.model.abilities.states]
+    between = [math.inf if s.min is None or s.max is None else (s.max - s.min) / 2 for s in states]  # their limits
     for i, spread in zip(free, ranges, strict=True):
         unknown = known[i] == "estimate"  # also of states that no input moves, such as a mass that is released
-        sd = np.full(spread.shape, math.inf) if unknown else context.treatment.noise.initial * spread
+        sd = np.array(between) if unknown else context.treatment.noise.initial * spread
         run = replace(logs[i].run, initial=sd)
         logs[i] = replace(logs[i], run=run)
     return logs

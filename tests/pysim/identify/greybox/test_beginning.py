@@ -1,6 +1,8 @@
 """Logs that begin anywhere, of a swing of many periods: the search starts from rest, a period out of step."""
 
+import math
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -26,11 +28,14 @@ end Swing;
 W2, D, NOISE = 62.0, 0.06, 1e-3
 
 
+def built(folder: Path, text: str) -> Model:
+    (folder / "Swing.mo").write_text(text)
+    return read_model(fmu_build.build("Swing", folder / "Swing.fmu", libraries=[folder / "Swing.mo"]))
+
+
 @pytest.fixture(scope="module")
 def swing(tmp_path_factory: pytest.TempPathFactory) -> Model:
-    folder = tmp_path_factory.mktemp("swing")
-    (folder / "Swing.mo").write_text(SWING)
-    return read_model(fmu_build.build("Swing", folder / "Swing.fmu", libraries=[folder / "Swing.mo"]))
+    return built(tmp_path_factory.mktemp("swing"), SWING)
 
 
 def angle(x: float, v: float, time: np.ndarray, push: float = 0.0) -> np.ndarray:
@@ -74,6 +79,14 @@ def test_a_fit_falls_into_step(swing: Model, data: Dataset) -> None:
         assert low - (high - low) < truth < high + (high - low)
     for record in found.records:
         assert np.std(record.residual.values) == pytest.approx(1.0, rel=0.1)  # of the noise
+
+
+def test_an_unknown_state_lies_between_its_limits(data: Dataset, tmp_path: Path) -> None:
+    """Half the way between these is the standard deviation of what is known of it."""
+    slow = built(tmp_path, SWING.replace("Real v(", "Real v(min=-8, max=6, "))
+    task = problem(slow, [data], (Parameter("w2"), Parameter("d")), treatment=Treatment(initial="estimate"))
+    for one in task.observations:
+        assert dict(zip(slow.abilities.states, one.runs[0].initial.tolist(), strict=True)) == {"x": math.inf, "v": 7.0}
 
 
 def test_a_log_that_was_not_fitted_falls_into_step(swing: Model, data: Dataset) -> None:
