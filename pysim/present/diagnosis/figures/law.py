@@ -32,16 +32,18 @@ def law_figure(law: LearnedLaw, samples: NDArray[np.float64] | None = None) -> F
     if law.knots.size < 2:
         raise BadInput(f"learned law at {law.slot}: a picture needs two knots, the curve has {law.knots.size}")
     (unit_in, scale_in), (unit_out, scale_out) = shown_unit(law.argument_unit), shown_unit(law.unit)
-    z, (low, high) = law.knots * scale_in, law.band
+    seen = np.unique(np.clip(law.knots, *law.reach))
+    curve, low, high = (np.interp(seen, law.knots, values) * scale_out for values in (law.coefficients, *law.band))
+    z = seen * scale_in
     ratios = [6] if samples is None else [6, 1]
     figure, axes = style.panels(6.4, 4.2, len(ratios), sharex=True, height_ratios=ratios)
     top, bottom = axes[0, 0], axes[-1, 0]
     if samples is not None:
         _density(bottom, samples * scale_in, z)
-    band = top.fill_between(z, low * scale_out, high * scale_out, color=style.COLOURS[0], alpha=0.25, linewidth=0)
-    (line,) = top.plot(z, law.coefficients * scale_out, color=style.COLOURS[0], linewidth=1.5)
+    band = top.fill_between(z, low, high, color=style.COLOURS[0], alpha=0.25, linewidth=0)
+    (line,) = top.plot(z, curve, color=style.COLOURS[0], linewidth=1.5)
     top.axhline(0.0, color=style.LIMIT, linewidth=0.9)
-    top.set_xlim(*(end * scale_in for end in law.reach))
+    top.set_xlim(z[0], z[-1])
     bottom.set_xlabel(f"{law.argument} ({unit_in})")
     top.set_ylabel(f"Missing {law_kind(law)} at {law.slot} ({unit_out})")
     style.legend_above(figure, [line, band], [f"explains {100 * law.share:.0f} % of the misfit", "95 % band"])
