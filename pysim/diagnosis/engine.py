@@ -193,11 +193,10 @@ def _answer(
     estimates = held_still(final)[0] if refitted else ()
     wanted = learns is Learns.ALWAYS or (learns is Learns.IF_MISSING and _lacks_much(found, account))
     wanted &= session.build_law is not None
-    learning, laws = None, list[Learning]()
-    if wanted and not final.candidate.has_events:
-        learning = LawSearch(session, search).first(found)
+    search_of_laws, laws = LawSearch(session, search), list[Learning]()
+    learning = search_of_laws.first(found) if wanted and not final.candidate.has_events else None
     if learning is not None and learning.law is not None:
-        found, account, laws = _with_laws(session, search, found, named, learning)
+        found, account, laws = _with_laws(session, search, search_of_laws, found, named, learning)
     if wanted:
         search.say.stage("learn")
     curves = {name for one in laws for name in one.fits[0].own}
@@ -235,14 +234,14 @@ def _answer(
 
 
 def _with_laws(
-    session: Session, search: Search, found: Found, models: Named, first: Learning
+    session: Session, search: Search, search_of_laws: LawSearch, found: Found, models: Named, first: Learning
 ) -> tuple[Found, _Account, list[Learning]]:
     """The result with a law, and with further ones as long as much is missing; its account; and the laws.
 
     Effects, sensor errors and doubts that a law made needless are left out, and steps of the history that had these.
     """
-    laws, steps, more = list[Learning](), list[tuple[str, FinalFit]](), [first]
-    for _ in range(session.settings.max_effects):
+    more, steps = [first], list[tuple[str, FinalFit]]()
+    for _ in range(max(session.settings.max_effects, 1)):
         laws, law = more, more[-1].fits[0]
         kept, floors = set(law.fit.candidate.labels), found.floors.with_(law.fit)
         losses = {label: loss for label, loss in found.losses.items() if label in kept}
@@ -250,7 +249,7 @@ def _with_laws(
         steps = [*steps[: len(laws) - 1], (law.law.label, law.fit)]
         named = [one for one in (*models, *steps) if kept.issuperset(one[1].candidate.labels)]
         account = _account(session, found, named, finest(search.fine, law.fit.simulation))
-        more = LawSearch(session, search).another(found, laws) if _lacks_much(found, account) else laws
+        more = search_of_laws.another(found, laws) if _lacks_much(found, account) else laws
         if more is laws:
             break
     return found, account, laws

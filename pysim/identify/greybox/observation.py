@@ -35,6 +35,7 @@ class Run:
         orbit: periodic steady state to find, which is then used instead of `experiment`; None for a run over time.
         initial: (n_x,) prior standard deviation of the initial states around rest: infinite if nothing is known of a
             state, 0 if it is held at rest. Empty if all are held.
+        begins_anywhere: whether the initial states are unknown, but for limits that the model declares.
         begins: time in s of the log's first sample; of a steady sine one at its phase, once the model has settled.
         measured: (n_t, n_y) measured rows of a run over time; empty if the comparison is not row by row.
     """
@@ -43,6 +44,7 @@ class Run:
     experiment: Experiment
     orbit: Periodic | None = None
     initial: Array = field(default_factory=lambda: np.zeros(0))
+    begins_anywhere: bool = False
     begins: float = 0.0
     measured: Array = field(default_factory=lambda: np.zeros((0, 0)))
 
@@ -50,11 +52,6 @@ class Run:
     def free(self) -> NDArray[np.intp]:
         """Indices of the states whose initial values are free."""
         return np.flatnonzero(self.initial)
-
-    @property
-    def begins_anywhere(self) -> bool:
-        """Whether some initial state is unknown: its prior has an infinite standard deviation."""
-        return bool(np.isinf(self.initial).any())
 
     def over_time(self, overrides: Mapping[str, float], offset: Array | None) -> Experiment:
         """The run over time with parameters set; its initial states are at an offset (n_s,) from rest, or at rest."""

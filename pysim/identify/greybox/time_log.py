@@ -193,7 +193,7 @@ def time_logs(context: Context, records: Sequence[tuple[int, MeasuredRecord]]) -
     for i, spread in zip(free, ranges, strict=True):
         unknown = known[i] == "estimate"  # also of states that no input moves, such as a mass that is released
         sd = np.array(between) if unknown else context.treatment.noise.initial * spread
-        run = replace(logs[i].run, initial=sd)
+        run = replace(logs[i].run, initial=sd, begins_anywhere=unknown and bool(states))
         logs[i] = replace(logs[i], run=run)
     return logs
 

@@ -62,6 +62,14 @@ def test_a_dead_band_depends_on_the_voltage_and_on_nothing_else() -> None:
     assert found.history[-1].validate == pytest.approx(1.0, abs=0.03)
 
 
+def test_a_law_is_in_the_history_where_no_effect_is_allowed() -> None:
+    opened = given("axis", measured("axis", {"damper": {"d_2": 1e3}}, fit=(1,), validate=(3,)), [])
+    found = diagnose(replace(opened, settings=replace(opened.settings, max_effects=0)))
+    (law,) = found.learned
+    assert (law.slot, found.history[-1].step) == ("guideway", "guideway: v * h(guideway.x)")
+    assert law.held_out == (found.history[-2].validate, found.history[-1].validate)
+
+
 @cache
 def braked() -> tuple[Dataset, Session, Search, FinalFit]:
     """An axis whose guideway brakes towards its ends, and the refitted model without."""

@@ -98,6 +98,16 @@ def test_a_log_that_was_not_fitted_falls_into_step(swing: Model, data: Dataset) 
     assert states == pytest.approx([2.0, -5.0], abs=5e-3)
 
 
+def test_limits_of_all_states_do_not_put_a_log_out_of_step(data: Dataset, tmp_path: Path) -> None:
+    text = SWING.replace("Real v(", "Real v(min=-100, max=100, ").replace("Real x(", "Real x(min=-20, max=20, ")
+    wide = built(tmp_path, text)
+    task = problem(wide, [data], (Parameter("w2", W2), Parameter("d", D)), treatment=Treatment(initial="estimate"))
+    residuals = task.residuals(use="validate")
+    assert all(np.isfinite(run.initial).all() for run in residuals.runs)
+    point = settled_initial_states(residuals, wide, task.space, task.space.to_search(task.space.start))
+    assert point.carried.states[0] == pytest.approx([2.0, -5.0], abs=5e-3)
+
+
 def test_to_find_where_a_log_at_rest_began_costs_one_noise_a_state(swing: Model) -> None:
     time = np.arange(0, 3, 0.01)
     truth, pushed = angle(0.0, 0.0, time, push=5.0), 5.0 * np.sin(time)
